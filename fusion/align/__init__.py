@@ -1,0 +1,1 @@
+"""Bringing sensors together: in time, in space, and onto the same person."""

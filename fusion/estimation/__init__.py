@@ -1,0 +1,1 @@
+"""Estimators: a base and one sibling file per method."""

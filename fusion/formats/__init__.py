@@ -1,0 +1,1 @@
+"""Wire dialects: one file each, decode and encode, no sockets."""

@@ -1,0 +1,1 @@
+"""From joint positions to angles, and from the healthy arm to the affected one."""

@@ -1,0 +1,1 @@
+"""Recordings: the interchange folder and the crash-safe live form."""

@@ -1,0 +1,1 @@
+"""The rules of the games: pure, seeded, replayable; the browser only draws."""

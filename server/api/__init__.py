@@ -1,0 +1,1 @@
+"""The web side of the service: speaks to the station only by messages."""

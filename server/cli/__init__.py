@@ -1,0 +1,1 @@
+"""The `mirrorlimb` commands, one file each."""

@@ -1,0 +1,274 @@
+"""What the service and the station say to one another, and what the browser is shown.
+
+Wishes go in (`Wish`), ticks and events come out (`LiveTick`, `StationEvent`). Encoded with msgspec: msgpack between
+the processes, JSON to the browser, whose TypeScript types are generated from these structs.
+Units: metres, radians, seconds. Points are [x, y, z]; a missing point is null. Frames are in the names.
+"""
+
+from __future__ import annotations
+
+from enum import StrEnum
+
+import msgspec
+
+from fusion.skeleton import Side
+
+EXO_JOINTS: tuple[str, ...] = ("plane", "elevation", "rotation", "elbow")
+"""The joints that limits, commands and measurements refer to: the shoulder's swing from the hanging arm as plane
+(0 = sideways, +90° = ahead) and elevation, the humerus' rotation after that swing (internal +), and elbow flexion."""
+
+Point = tuple[float, float, float]
+
+
+class DriveState(StrEnum):
+    """States of the safety gate (SR-5)."""
+
+    OFF = "off"
+    READY = "ready"
+    ENGAGED = "engaged"
+    HOLD = "hold"
+    FAULT = "fault"
+    STOPPED = "stopped"
+
+
+# ---------------------------------------------------------------- limits
+
+
+class JointLimits(msgspec.Struct, frozen=True, kw_only=True):
+    """What one exoskeleton joint may do for this patient."""
+
+    joint: str
+    min_rad: float
+    max_rad: float
+    velocity_rad_s: float
+    acceleration_rad_s2: float
+
+
+# ---------------------------------------------------------------- wishes: service → station
+
+
+class Wish(msgspec.Struct, frozen=True, kw_only=True, tag_field="kind"):
+    """Something a person wants; read at the head of a tick, answered by a `WishAnswer` of the same number."""
+
+    number: int
+
+
+class OpenSession(Wish, frozen=True, kw_only=True, tag="open"):
+    """Prepare for a patient. Motion stays impossible until `Enable`."""
+
+    session: str
+    patient: str
+    """A name or pseudonym; never empty (SR-10)."""
+    healthy_side: Side
+    side_confirmed: bool
+    limits: tuple[JointLimits, ...]
+    limits_set_by: str
+    """Account that set the limits (SR-10)."""
+    recording: str
+    """File to record to."""
+
+
+class CloseSession(Wish, frozen=True, kw_only=True, tag="close"):
+    """Ramp to rest, then let go of the patient and finish the recording."""
+
+
+class Enable(Wish, frozen=True, kw_only=True, tag="enable"):
+    """ready → engaged, through a blend-in (SR-6)."""
+
+
+class Hold(Wish, frozen=True, kw_only=True, tag="hold"):
+    """engaged → hold."""
+
+    reason: str
+
+
+class Resume(Wish, frozen=True, kw_only=True, tag="resume"):
+    """hold → engaged, through a blend-in."""
+
+
+class Stop(Wish, frozen=True, kw_only=True, tag="stop"):
+    """Any → stopped, latched. Travels on a channel of its own."""
+
+    reason: str
+
+
+class Reset(Wish, frozen=True, kw_only=True, tag="reset"):
+    """stopped or fault → ready (or off). A separate `Enable` is still needed."""
+
+
+class FollowBody(Wish, frozen=True, kw_only=True, tag="follow"):
+    """A person says which body of a sensor is the patient."""
+
+    sensor: str
+    body: str
+
+
+class Heartbeat(Wish, frozen=True, kw_only=True, tag="heartbeat"):
+    """The service is alive; without one for 250 ms the station holds. Not answered."""
+
+
+AnyWish = OpenSession | CloseSession | Enable | Hold | Resume | Stop | Reset | FollowBody | Heartbeat
+
+
+# ---------------------------------------------------------------- events: station → service
+
+
+class StationEvent(msgspec.Struct, frozen=True, kw_only=True, tag_field="kind"):
+    """Something that happened and must not be lost; bounded queue, in order."""
+
+    t_s: float
+
+
+class WishAnswer(StationEvent, frozen=True, kw_only=True, tag="answer"):
+    """What became of a wish. `reason` is a sentence for the person where it was refused."""
+
+    number: int
+    accepted: bool
+    reason: str
+    state: DriveState
+
+
+class StateChanged(StationEvent, frozen=True, kw_only=True, tag="state"):
+    """The safety gate changed its state."""
+
+    before: DriveState
+    after: DriveState
+    reason: str
+
+
+class Warned(StationEvent, frozen=True, kw_only=True, tag="warning"):
+    """Something a person should know: a mirrored sender, a garbage flood, an overrun."""
+
+    code: str
+    text: str
+
+
+class StationUp(StationEvent, frozen=True, kw_only=True, tag="up"):
+    """The station is listening; where."""
+
+    ports: dict[str, int]
+    """Dialect (or "any") to UDP port."""
+    drive: str
+
+
+class SessionClosed(StationEvent, frozen=True, kw_only=True, tag="closed"):
+    """The recording is finished."""
+
+    session: str
+    recording: str
+
+
+AnyEvent = WishAnswer | StateChanged | Warned | StationUp | SessionClosed
+
+
+# ---------------------------------------------------------------- ticks: station → service → browser
+
+
+class SensorView(msgspec.Struct, frozen=True, kw_only=True):
+    """One sensor as the therapist sees it."""
+
+    sensor: str
+    dialect: str
+    is_reference: bool
+    frames_per_s: float
+    latency_s: float
+    joints_tracked: int
+    clock_offset_s: float
+    residual_m: float | None
+    aligned: bool
+    age_s: float
+    """Time since its last frame."""
+    refused_joints: int
+    warnings: tuple[str, ...]
+    position_in_room: Point | None
+    joints_in_room: tuple[Point | None, ...]
+    """25 joints after alignment; empty while unaligned."""
+
+
+class BodyView(msgspec.Struct, frozen=True, kw_only=True):
+    """The fused body."""
+
+    joints_in_room: tuple[Point | None, ...]  # 25
+    bound_m: tuple[float, ...]  # 25
+    shape_m2: tuple[tuple[float, ...], ...]  # 25 x (xx, xy, xz, yy, yz, zz)
+    state: tuple[int, ...]  # 25
+
+
+class ArmView(msgspec.Struct, frozen=True, kw_only=True):
+    """An arm's angles and its points; `points_in_trunk` are shoulder, elbow, wrist, hand in the patient's trunk
+    frame (x to the patient's right, y up, z from chest to back: three.js's camera axes).
+    """
+
+    plane_rad: float
+    elevation_rad: float
+    rotation_rad: float
+    elbow_rad: float
+    plane_of_elevation_rad: float | None = None
+    axial_rotation_rad: float | None = None
+    alpha_rad: float | None = None
+    beta_rad: float | None = None
+    gamma_rad: float | None = None
+    valid: bool
+    points_in_trunk: tuple[Point, Point, Point, Point]
+    points_in_room: tuple[Point, Point, Point, Point] | None
+
+
+class ExoView(msgspec.Struct, frozen=True, kw_only=True):
+    """The exoskeleton: measured against commanded, per joint of `EXO_JOINTS`."""
+
+    angle_rad: tuple[float, ...]
+    velocity_rad_s: tuple[float, ...]
+    torque_nm: tuple[float, ...]
+    command_rad: tuple[float, ...]
+    command_velocity_rad_s: tuple[float, ...]
+    clamped: tuple[str, ...]
+    """What was clamped in this tick and why, in words."""
+    speed_factor: float
+    """1 = free, 0 = held by uncertainty; SR-4."""
+    blend: float
+    """0..1 of the blend-in after engage or resume; SR-6."""
+    fault: str
+
+
+class Timing(msgspec.Struct, frozen=True, kw_only=True):
+    """How old things are."""
+
+    datagram_to_command_s: float | None
+    """Receive time of the newest datagram used in this tick → its command was given to the drive."""
+    tick_s: float
+    """Work in this tick."""
+    overruns: int
+    datagrams: int
+    datagrams_refused: int
+    ticks_dropped: int
+    recorder_dropped: int
+
+
+class LiveTick(msgspec.Struct, frozen=True, kw_only=True):
+    """One tick of the station as it leaves at its tail."""
+
+    index: int
+    t_s: float
+    """Monotonic time of the tick's head."""
+    t_newest_received_s: float | None
+    state: DriveState
+    reason: str
+    """Why the state is what it is, in plain words; "" when engaged and free."""
+    may_enable: bool
+    blockers: tuple[str, ...]
+    """What still keeps `Enable` from being accepted, in plain words."""
+    session: str
+    healthy_side: Side
+    sensors: tuple[SensorView, ...]
+    body: BodyView | None
+    healthy: ArmView | None
+    target: ArmView | None
+    """The mirrored arm (affected side)."""
+    affected: ArmView
+    """The affected arm as the exoskeleton measures it."""
+    exo: ExoView
+    limits: tuple[JointLimits, ...]
+    trunk_lean_m: float
+    """Displacement of SpineShoulder from where it was when the session was enabled."""
+    timing: Timing
+    warnings: tuple[str, ...]

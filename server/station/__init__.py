@@ -1,0 +1,1 @@
+"""The station: the real-time process at one therapy place. Knows nothing of the web."""

@@ -1,0 +1,1 @@
+"""The exoskeleton: the safety gate, the driver contract, and one file per drive family."""
