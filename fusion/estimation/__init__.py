@@ -1,1 +1,16 @@
-"""Estimators: a base and one sibling file per method."""
+"""Estimators: a base and one sibling file per method.
+
+A new method is a new file beside `kalman` and one line in `METHODS`; `esmf` [Du2016] and `adaptive` [Yao] go here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Final
+
+from fusion.estimation.average import Average
+from fusion.estimation.estimator import Estimator
+from fusion.estimation.kalman import Kalman
+
+METHODS: Final[dict[str, Callable[[], Estimator]]] = {method.name: method for method in (Kalman, Average)}
+"""Every method by the name that `--method` takes."""
