@@ -1,0 +1,86 @@
+// The live stream: one message at a time from the service, acknowledged once it can have been drawn.
+import type { LiveMessage } from "./types";
+
+/** How the connection stands; `lost` means that it is being tried again. */
+export type Link = "connecting" | "open" | "lost";
+
+export interface LiveConnection {
+  /** Ends the stream for good. */
+  close(): void;
+}
+
+const FIRST_RETRY_MS = 250;
+const LONGEST_RETRY_MS = 3000;
+/** A hidden window draws nothing and never gets an animation frame; it still has to answer. */
+const HIDDEN_ACK_MS = 400;
+
+/** Where the stream is, seen from a page at `page`. */
+export function streamAddress(page: URL): string {
+  return `${page.protocol === "https:" ? "wss:" : "ws:"}//${page.host}/api/stream`;
+}
+
+/** How long to wait before attempt number `attempt` (from 0). */
+export function retryDelayMs(attempt: number): number {
+  return Math.min(FIRST_RETRY_MS * 2 ** attempt, LONGEST_RETRY_MS);
+}
+
+/** Calls `act` after the next frame has been drawn, or after a short while in a hidden window. */
+function afterDrawing(act: () => void): void {
+  let done = false;
+  const once = () => {
+    if (!done) act();
+    done = true;
+  };
+  requestAnimationFrame(once);
+  setTimeout(once, HIDDEN_ACK_MS);
+}
+
+/**
+ * Follows the stream until closed, connecting again by itself whenever it breaks.
+ *
+ * `onMessage` gets each message as it arrives and should only keep it: draw in `requestAnimationFrame`. The message is
+ * acknowledged in the animation frame that follows, and the service sends the then newest one. So a slow screen skips
+ * ticks and is never shown stale ones.
+ */
+export function connectLive(
+  onMessage: (message: LiveMessage) => void,
+  onLink: (link: Link) => void = () => {},
+): LiveConnection {
+  let socket: WebSocket | null = null;
+  let retry: ReturnType<typeof setTimeout> | undefined;
+  let attempt = 0;
+  let closed = false;
+
+  const acknowledge = (from: WebSocket, index: number) => {
+    if (from.readyState === WebSocket.OPEN) from.send(JSON.stringify({ ack: index }));
+  };
+  const receive = (from: WebSocket, text: string) => {
+    const message = JSON.parse(text) as LiveMessage;
+    onMessage(message);
+    afterDrawing(() => acknowledge(from, message.index));
+  };
+  const open = () => {
+    const mine = new WebSocket(streamAddress(new URL(location.href)));
+    socket = mine;
+    mine.onopen = () => {
+      attempt = 0;
+      onLink("open");
+    };
+    mine.onmessage = (event) => receive(mine, String(event.data));
+    mine.onclose = () => {
+      if (closed) return;
+      onLink("lost");
+      retry = setTimeout(open, retryDelayMs(attempt++));
+    };
+  };
+
+  onLink("connecting");
+  open();
+  return {
+    close: () => {
+      closed = true;
+      clearTimeout(retry);
+      socket?.close();
+    },
+  };
+}

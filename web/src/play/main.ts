@@ -1,0 +1,2 @@
+// The patient's screen; its scene comes here.
+export {};
