@@ -1,0 +1,1 @@
+"""What the service asks of the database: a file per table, functions that take a session and return rows."""

@@ -1,0 +1,105 @@
+"""Therapy sessions, their metrics and their events."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from sqlalchemy import Select, delete
+from sqlmodel import Session, col, select
+
+from db.account import Account
+from db.patient import Patient
+from db.therapy_session import (
+    Event,
+    Metric,
+    MetricPublic,
+    SessionDetail,
+    SessionPublic,
+    SessionStatus,
+    TherapySession,
+)
+
+
+def add_session(session: Session, opened: TherapySession) -> TherapySession:
+    """A session that begins now."""
+    session.add(opened)
+    session.flush()
+    return opened
+
+
+def find_session(session: Session, session_id: int) -> TherapySession | None:
+    """The session of that number."""
+    return session.get(TherapySession, session_id)
+
+
+def sessions_left_open(session: Session) -> list[TherapySession]:
+    """Sessions that a crash left open, or whose metrics could not be stored."""
+    unfinished = (TherapySession.status == SessionStatus.OPEN) | (col(TherapySession.measured).is_(False))
+    return list(session.exec(select(TherapySession).where(unfinished).order_by(col(TherapySession.id))))
+
+
+def add_event(session: Session, event: Event) -> Event:
+    """Something that happened."""
+    session.add(event)
+    session.flush()
+    return event
+
+
+def events_of(session: Session, session_id: int) -> list[Event]:
+    """What happened in a session, in order."""
+    return list(session.exec(select(Event).where(Event.session_id == session_id).order_by(col(Event.id))))
+
+
+def replace_metrics(session: Session, session_id: int, metrics: Iterable[Metric]) -> None:
+    """Store a session's figures in place of what was there; trying again therefore does no harm."""
+    session.execute(delete(Metric).where(col(Metric.session_id) == session_id))
+    session.add_all(metrics)
+    session.flush()
+
+
+def public_session(session: Session, session_id: int) -> SessionPublic | None:
+    """A session with the names of patient and therapist."""
+    found = session.exec(_named().where(TherapySession.id == session_id)).first()
+    return None if found is None else SessionPublic.model_validate(found[0], update=_names(found))
+
+
+def session_detail(session: Session, session_id: int) -> SessionDetail | None:
+    """A session with its figures."""
+    found = session.exec(_named().where(TherapySession.id == session_id)).first()
+    return None if found is None else _with_metrics(session, [found])[0]
+
+
+def history_of(session: Session, patient_id: int) -> list[SessionDetail]:
+    """A patient's sessions with their figures, newest first."""
+    rows = session.exec(
+        _named().where(TherapySession.patient_id == patient_id).order_by(col(TherapySession.id).desc())
+    ).all()
+    return _with_metrics(session, rows)
+
+
+_Named = tuple[TherapySession, str, str]
+
+
+def _named() -> Select[_Named]:
+    return (
+        select(TherapySession, Patient.name, Account.name)
+        .where(TherapySession.patient_id == Patient.id)
+        .where(TherapySession.therapist_id == Account.id)
+    )
+
+
+def _names(row: _Named) -> dict[str, str]:
+    return {"patient_name": row[1], "therapist_name": row[2]}
+
+
+def _with_metrics(session: Session, rows: Sequence[_Named]) -> list[SessionDetail]:
+    numbers = [row[0].id for row in rows]
+    metrics = session.exec(select(Metric).where(col(Metric.session_id).in_(numbers)).order_by(col(Metric.id))).all()
+    return [
+        SessionDetail.model_validate(
+            row[0],
+            update=_names(row)
+            | {"metrics": [MetricPublic.model_validate(m) for m in metrics if m.session_id == row[0].id]},
+        )
+        for row in rows
+    ]

@@ -1,0 +1,136 @@
+"""A therapy session, what it measured and what happened in it."""
+
+from __future__ import annotations
+
+from datetime import datetime
+from enum import StrEnum
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict
+from sqlalchemy import JSON, String
+from sqlmodel import Field, SQLModel
+
+from db.columns import Document, UtcDateTime, now_utc, word_of
+from db.patient import SideName
+
+
+class SessionStatus(StrEnum):
+    """Where a session stands."""
+
+    OPEN = "open"
+    ENDED = "ended"
+    INTERRUPTED = "interrupted"
+    """Cut short by a crash; its metrics come from what was recorded."""
+
+
+class LimitsSnapshot(BaseModel):
+    """What one joint of the exoskeleton was allowed in this session."""
+
+    model_config = ConfigDict(frozen=True)
+
+    joint: str
+    min_rad: float
+    max_rad: float
+    velocity_rad_s: float
+    acceleration_rad_s2: float
+
+
+class AllLimits(BaseModel):
+    """The limits of every joint in this session."""
+
+    model_config = ConfigDict(frozen=True)
+
+    joints: tuple[LimitsSnapshot, ...] = ()
+
+
+class SessionBase(SQLModel):
+    """What every form of a session says."""
+
+    patient_id: int = Field(foreign_key="patient.id", index=True)
+    affected_side: SideName = Field(sa_type=String)
+    game: str = Field(max_length=40)
+    seed: int
+    level: float = Field(ge=0, le=1, description="Difficulty at the start, 0 to 1.")
+    started_at: datetime = Field(default_factory=now_utc, sa_type=UtcDateTime)
+    ended_at: datetime | None = Field(default=None, sa_type=UtcDateTime)
+    status: SessionStatus = Field(default=SessionStatus.OPEN, sa_type=word_of(SessionStatus))  # type: ignore[call-overload]  # sa_type takes instances too
+    pain_before: int | None = Field(default=None, ge=0, le=10)
+    pain_after: int | None = Field(default=None, ge=0, le=10)
+    limits: AllLimits = Field(default_factory=AllLimits, sa_type=Document(AllLimits))  # type: ignore[call-overload]
+    version: str = Field(default="", max_length=40, description="The program's version.")
+
+
+class TherapySession(SessionBase, table=True):
+    """A session as stored. `recording` is relative to the data folder."""
+
+    __tablename__ = "therapy_session"
+
+    id: int | None = Field(default=None, primary_key=True)
+    therapist_id: int = Field(foreign_key="account.id", index=True)
+    recording: str = Field(default="", max_length=200)
+    measured: bool = False
+    """Its metrics are in the database; false where that failed and must be tried again."""
+
+
+class MetricBase(SQLModel):
+    """One figure of a session; docs/metrics.md says how each is defined."""
+
+    name: str = Field(max_length=60)
+    joint: str = Field(default="", max_length=40)
+    side: str = Field(default="", max_length=10)
+    value: float | None = Field(description="Null where it could not be measured.")
+    unit: str = Field(default="", max_length=20)
+    label: str = Field(default="", max_length=80, description="Key of its name in the browser's strings.")
+    caveat: str = Field(default="", max_length=80, description="Key of what must be said beside it, or empty.")
+
+
+class Metric(MetricBase, table=True):
+    """A figure as stored."""
+
+    __tablename__ = "metric"
+
+    id: int | None = Field(default=None, primary_key=True)
+    session_id: int = Field(foreign_key="therapy_session.id", index=True, ondelete="CASCADE")
+
+
+class MetricPublic(MetricBase):
+    """A figure as the browser sees it."""
+
+
+class EventBase(SQLModel):
+    """Something that happened in a session."""
+
+    t: datetime = Field(default_factory=now_utc, sa_type=UtcDateTime)
+    kind: str = Field(max_length=40, index=True)
+    text: str = Field(default="", max_length=1000)
+    data: dict[str, Any] = Field(default_factory=dict, sa_type=JSON)
+
+
+class Event(EventBase, table=True):
+    """An event as stored."""
+
+    __tablename__ = "event"
+
+    id: int | None = Field(default=None, primary_key=True)
+    session_id: int = Field(foreign_key="therapy_session.id", index=True, ondelete="CASCADE")
+
+
+class EventPublic(EventBase):
+    """An event as the browser sees it."""
+
+    id: int
+
+
+class SessionPublic(SessionBase):
+    """A session as the browser sees it."""
+
+    id: int
+    patient_name: str
+    therapist_name: str
+    measured: bool
+
+
+class SessionDetail(SessionPublic):
+    """A session with what it measured."""
+
+    metrics: list[MetricPublic] = []

@@ -1,0 +1,56 @@
+"""What routes may ask for, as named types."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated
+
+from fastapi import Depends, Request
+from fastapi.security import APIKeyCookie
+from sqlmodel import Session
+
+from db.account import Account
+from server.api.auth import COOKIE, Auth
+from server.api.service import Service
+from server.api.therapy import Therapy
+
+cookie_scheme = APIKeyCookie(name=COOKIE, auto_error=False, description="Set by logging in; HttpOnly.")
+
+
+def get_service(request: Request) -> Service:
+    """Everything that runs behind this application."""
+    service: Service = request.app.state.service
+    return service
+
+
+ServiceDep = Annotated[Service, Depends(get_service)]
+
+
+def get_session(service: ServiceDep) -> Iterator[Session]:
+    """A unit of work in the database, stored when the route is done and before the answer leaves."""
+    with service.database.session() as session:
+        yield session
+
+
+def get_auth(service: ServiceDep) -> Auth:
+    """Who may do what."""
+    return service.auth
+
+
+def get_therapy(service: ServiceDep) -> Therapy:
+    """The session that is going on."""
+    return service.therapy
+
+
+SessionDep = Annotated[Session, Depends(get_session, scope="function")]
+AuthDep = Annotated[Auth, Depends(get_auth)]
+TherapyDep = Annotated[Therapy, Depends(get_therapy)]
+TokenDep = Annotated[str | None, Depends(cookie_scheme)]
+
+
+def get_account(auth: AuthDep, token: TokenDep) -> Account:
+    """Who is logged in; 401 where nobody is."""
+    return auth.account_of(token)
+
+
+AccountDep = Annotated[Account, Depends(get_account)]

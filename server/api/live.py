@@ -1,0 +1,52 @@
+"""What the browser is sent over the stream: the newest tick, the game's picture and the open session."""
+
+from __future__ import annotations
+
+from datetime import datetime
+from enum import StrEnum
+
+import msgspec
+
+from fusion.skeleton import Side
+from games.game import GameView
+from server.messages import LiveTick
+
+
+class SessionPhase(StrEnum):
+    """Where the open session stands, for people."""
+
+    PREPARING = "preparing"
+    """Open, not begun: the arm may not move."""
+    RUNNING = "running"
+    HELD = "held"
+    STOPPED = "stopped"
+    """Stopped or at fault, latched until somebody resets."""
+    INTERRUPTED = "interrupted"
+    """The station died and was started again; the session can only be ended."""
+    SAVING = "saving"
+
+
+class SessionView(msgspec.Struct, frozen=True, kw_only=True):
+    """The open session in a line."""
+
+    id: int
+    patient: str
+    game: str
+    affected_side: Side
+    started: datetime
+    elapsed_s: float
+    phase: SessionPhase
+
+
+class LiveMessage(msgspec.Struct, frozen=True, kw_only=True):
+    """One message of `/api/stream`; answered by `Acknowledgement` once it is drawn."""
+
+    tick: LiveTick
+    game: GameView | None
+    session: SessionView | None
+
+
+class Acknowledgement(msgspec.Struct, frozen=True, kw_only=True):
+    """The page has drawn the tick of that index and wants the next."""
+
+    ack: int

@@ -1,0 +1,55 @@
+"""Patients and their history."""
+
+from __future__ import annotations
+
+from fastapi import APIRouter
+
+from db.patient import Patient, PatientCreate, PatientPublic, PatientUpdate
+from db.queries import patients, sessions
+from db.therapy_session import SessionDetail
+from server.api.deps import AccountDep, SessionDep
+from server.api.errors import answers, not_found
+
+router = APIRouter(prefix="/patients", tags=["patients"])
+
+
+@router.get("", responses=answers(401, 503))
+def list_patients(_: AccountDep, session: SessionDep) -> list[PatientPublic]:
+    """Every patient, by name."""
+    return [_public(patient) for patient in patients.list_patients(session)]
+
+
+@router.post("", status_code=201, responses=answers(401, 422, 503))
+def enrol_patient(form: PatientCreate, account: AccountDep, session: SessionDep) -> PatientPublic:
+    """Enrol a patient."""
+    return _public(patients.add_patient(session, form, account.id or 0))
+
+
+@router.get("/{patient_id}", responses=answers(401, 404, 422, 503))
+def read_patient(patient_id: int, _: AccountDep, session: SessionDep) -> PatientPublic:
+    """One patient."""
+    return _public(_existing(session, patient_id))
+
+
+@router.patch("/{patient_id}", responses=answers(401, 404, 422, 503))
+def change_patient(patient_id: int, form: PatientUpdate, _: AccountDep, session: SessionDep) -> PatientPublic:
+    """Change what the form names; it holds from the next session on."""
+    return _public(patients.change_patient(session, _existing(session, patient_id), form))
+
+
+@router.get("/{patient_id}/sessions", responses=answers(401, 404, 422, 503))
+def read_history(patient_id: int, _: AccountDep, session: SessionDep) -> list[SessionDetail]:
+    """The patient's sessions with their metrics, newest first."""
+    _existing(session, patient_id)
+    return sessions.history_of(session, patient_id)
+
+
+def _existing(session: SessionDep, patient_id: int) -> Patient:
+    patient = patients.find_patient(session, patient_id)
+    if patient is None:
+        raise not_found("patient", patient_id)
+    return patient
+
+
+def _public(patient: Patient) -> PatientPublic:
+    return PatientPublic.model_validate(patient)
