@@ -57,7 +57,7 @@ export function connectLive(
   const receive = (from: WebSocket, text: string) => {
     const message = JSON.parse(text) as LiveMessage;
     onMessage(message);
-    afterDrawing(() => acknowledge(from, message.index));
+    afterDrawing(() => acknowledge(from, message.tick.index));
   };
   const open = () => {
     const mine = new WebSocket(streamAddress(new URL(location.href)));

@@ -3,97 +3,419 @@
  * Do not make direct changes to the file.
  */
 
-export type paths = Record<string, never>;
+export interface paths {
+    "/api/demo": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Demo
+         * @description Enter the demonstration; only with `--demo`, from this machine, with a simulated drive. Needs no log-in.
+         */
+        post: operations["demo_api_demo_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/login": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Login
+         * @description Log in. Needs no log-in.
+         */
+        post: operations["login_api_login_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/logout": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Logout
+         * @description Log out; the token is worthless from now on.
+         */
+        post: operations["logout_api_logout_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/me": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Me
+         * @description Who is logged in.
+         */
+        get: operations["me_api_me_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/patients": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Patients
+         * @description Every patient, by name.
+         */
+        get: operations["list_patients_api_patients_get"];
+        put?: never;
+        /**
+         * Enrol Patient
+         * @description Enrol a patient.
+         */
+        post: operations["enrol_patient_api_patients_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/patients/{patient_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Patient
+         * @description One patient.
+         */
+        get: operations["read_patient_api_patients__patient_id__get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        /**
+         * Change Patient
+         * @description Change what the form names; it holds from the next session on.
+         */
+        patch: operations["change_patient_api_patients__patient_id__patch"];
+        trace?: never;
+    };
+    "/api/patients/{patient_id}/sessions": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read History
+         * @description The patient's sessions with their metrics, newest first.
+         */
+        get: operations["read_history_api_patients__patient_id__sessions_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sessions": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Open Session
+         * @description Open a session for a patient; one at a time, and only with the affected side confirmed.
+         */
+        post: operations["open_session_api_sessions_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sessions/current": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Current
+         * @description The open session, or null.
+         */
+        get: operations["read_current_api_sessions_current_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sessions/{session_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Session
+         * @description A session with its metrics.
+         */
+        get: operations["read_session_api_sessions__session_id__get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sessions/{session_id}/control": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Control
+         * @description Start, hold, resume, stop or reset the arm. 409 with the reason where that is refused.
+         */
+        post: operations["control_api_sessions__session_id__control_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sessions/{session_id}/curves": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Curves
+         * @description The angles of both arms over the session.
+         */
+        get: operations["read_curves_api_sessions__session_id__curves_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sessions/{session_id}/end": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * End Session
+         * @description Stop, finish the recording, compute the metrics and store them.
+         */
+        post: operations["end_session_api_sessions__session_id__end_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sessions/{session_id}/events": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Events
+         * @description What happened in the session, in order.
+         */
+        get: operations["read_events_api_sessions__session_id__events_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sessions/{session_id}/follow": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Follow
+         * @description Say which body of a sensor is the patient.
+         */
+        post: operations["follow_api_sessions__session_id__follow_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/setup": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Setup
+         * @description Make the first account and log in to it; refused once there is one. Needs no log-in.
+         */
+        post: operations["setup_api_setup_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/station": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Station
+         * @description Ports, drive, state and latencies of the real-time side.
+         */
+        get: operations["read_station_api_station_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/status": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Status
+         * @description What a page needs to know before anybody has logged in. Needs no log-in.
+         */
+        get: operations["status_api_status_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+}
 export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
         /**
-         * LiveMessage
-         * @description draft
+         * AccountPublic
+         * @description An account as the browser sees it.
          */
-        LiveMessage: {
-            index: number;
-            tick: components["schemas"]["LiveTick"];
-            game: components["schemas"]["GameView"] | null;
+        AccountPublic: {
+            /** Id */
+            id: number;
+            /** Name */
+            name: string;
         };
         /**
-         * LiveTick
-         * @description One tick of the station as it leaves at its tail.
+         * Acknowledgement
+         * @description The page has drawn the tick of that index and wants the next.
          */
-        LiveTick: {
-            index: number;
-            t_s: number;
-            t_newest_received_s: number | null;
-            state: components["schemas"]["DriveState"];
+        Acknowledgement: {
+            ack: number;
+        };
+        /**
+         * AllLimits
+         * @description The limits of every joint in this session.
+         */
+        AllLimits: {
+            /**
+             * Joints
+             * @default []
+             */
+            joints: components["schemas"]["LimitsSnapshot"][];
+        };
+        /**
+         * Answer
+         * @description What the station made of an accepted wish.
+         * @example {
+         *       "reason": "",
+         *       "state": "engaged"
+         *     }
+         */
+        Answer: {
+            /** Reason */
             reason: string;
-            may_enable: boolean;
-            blockers: string[];
-            session: string;
-            healthy_side: components["schemas"]["Side"];
-            sensors: components["schemas"]["SensorView"][];
-            body: components["schemas"]["BodyView"] | null;
-            healthy: components["schemas"]["ArmView"] | null;
-            target: components["schemas"]["ArmView"] | null;
-            affected: components["schemas"]["ArmView"];
-            exo: components["schemas"]["ExoView"];
-            limits: components["schemas"]["JointLimits"][];
-            trunk_lean_m: number;
-            timing: components["schemas"]["Timing"];
-            warnings: string[];
-        };
-        /**
-         * DriveState
-         * @description States of the safety gate (SR-5).
-         * @enum {unknown}
-         */
-        DriveState: "engaged" | "fault" | "hold" | "off" | "ready" | "stopped";
-        /**
-         * Side
-         * @description A side of the patient's body, always the patient's own left or right.
-         * @enum {unknown}
-         */
-        Side: "left" | "right";
-        /**
-         * SensorView
-         * @description One sensor as the therapist sees it.
-         */
-        SensorView: {
-            sensor: string;
-            dialect: string;
-            is_reference: boolean;
-            frames_per_s: number;
-            latency_s: number;
-            joints_tracked: number;
-            clock_offset_s: number;
-            residual_m: number | null;
-            aligned: boolean;
-            age_s: number;
-            refused_joints: number;
-            warnings: string[];
-            position_in_room: [
-                number,
-                number,
-                number
-            ] | null;
-            joints_in_room: ([
-                number,
-                number,
-                number
-            ] | null)[];
-        };
-        /**
-         * BodyView
-         * @description The fused body.
-         */
-        BodyView: {
-            joints_in_room: ([
-                number,
-                number,
-                number
-            ] | null)[];
-            bound_m: number[];
-            shape_m2: number[][];
-            state: number[];
+            state: components["schemas"]["DriveState"];
         };
         /**
          * ArmView
@@ -101,43 +423,19 @@ export interface components {
          *         frame (x to the patient's right, y up, z from chest to back: three.js's camera axes).
          */
         ArmView: {
-            plane_rad: number;
-            elevation_rad: number;
-            rotation_rad: number;
-            elbow_rad: number;
-            /** @default null */
-            plane_of_elevation_rad: number | null;
-            /** @default null */
-            axial_rotation_rad: number | null;
             /** @default null */
             alpha_rad: number | null;
             /** @default null */
+            axial_rotation_rad: number | null;
+            /** @default null */
             beta_rad: number | null;
+            elbow_rad: number;
+            elevation_rad: number;
             /** @default null */
             gamma_rad: number | null;
-            valid: boolean;
-            points_in_trunk: [
-                [
-                    number,
-                    number,
-                    number
-                ],
-                [
-                    number,
-                    number,
-                    number
-                ],
-                [
-                    number,
-                    number,
-                    number
-                ],
-                [
-                    number,
-                    number,
-                    number
-                ]
-            ];
+            /** @default null */
+            plane_of_elevation_rad: number | null;
+            plane_rad: number;
             points_in_room: [
                 [
                     number,
@@ -160,6 +458,194 @@ export interface components {
                     number
                 ]
             ] | null;
+            points_in_trunk: [
+                [
+                    number,
+                    number,
+                    number
+                ],
+                [
+                    number,
+                    number,
+                    number
+                ],
+                [
+                    number,
+                    number,
+                    number
+                ],
+                [
+                    number,
+                    number,
+                    number
+                ]
+            ];
+            rotation_rad: number;
+            valid: boolean;
+        };
+        /**
+         * BodyView
+         * @description The fused body.
+         */
+        BodyView: {
+            bound_m: number[];
+            joints_in_room: ([
+                number,
+                number,
+                number
+            ] | null)[];
+            shape_m2: number[][];
+            state: number[];
+        };
+        /**
+         * Control
+         * @description What a person wants of the arm.
+         * @example {
+         *       "action": "start"
+         *     }
+         */
+        Control: {
+            /**
+             * Action
+             * @enum {string}
+             */
+            action: "start" | "hold" | "resume" | "stop" | "reset";
+        };
+        /**
+         * Credentials
+         * @description A name and a password.
+         * @example {
+         *       "name": "Dr. Lin",
+         *       "password": "three quiet herons"
+         *     }
+         */
+        Credentials: {
+            /** Name */
+            name: string;
+            /** Password */
+            password: string;
+        };
+        /**
+         * Curves
+         * @description A session's curves, thinned to at most 1500 points.
+         * @example {
+         *       "affected_rad": {
+         *         "elbow": [
+         *           0.4,
+         *           0.5
+         *         ],
+         *         "elevation": [
+         *           0.1,
+         *           0.2
+         *         ],
+         *         "plane": [
+         *           0.4,
+         *           0.4
+         *         ],
+         *         "rotation": [
+         *           0,
+         *           0
+         *         ]
+         *       },
+         *       "healthy_rad": {
+         *         "elbow": [
+         *           0.5,
+         *           0.6
+         *         ],
+         *         "elevation": [
+         *           0.2,
+         *           0.3
+         *         ],
+         *         "plane": [
+         *           0.4,
+         *           0.4
+         *         ],
+         *         "rotation": [
+         *           0,
+         *           null
+         *         ]
+         *       },
+         *       "state": [
+         *         "ready",
+         *         "engaged"
+         *       ],
+         *       "t_s": [
+         *         0,
+         *         0.1
+         *       ]
+         *     }
+         */
+        Curves: {
+            affected_rad: components["schemas"]["JointCurves"];
+            healthy_rad: components["schemas"]["JointCurves"];
+            /** State */
+            state: components["schemas"]["DriveState"][];
+            /** T S */
+            t_s: number[];
+        };
+        /**
+         * DemoWelcome
+         * @description The demonstration's account and its patient.
+         */
+        DemoWelcome: {
+            account: components["schemas"]["AccountPublic"];
+            patient: components["schemas"]["PatientPublic"];
+        };
+        /**
+         * DriveState
+         * @description States of the safety gate (SR-5).
+         * @enum {string}
+         */
+        DriveState: "off" | "ready" | "engaged" | "hold" | "fault" | "stopped";
+        /**
+         * ErrorDetail
+         * @description What is wrong, what would have been right, and what to do.
+         */
+        ErrorDetail: {
+            /** Expected */
+            expected: string;
+            /** Remedy */
+            remedy: string;
+            /** What */
+            what: string;
+        };
+        /**
+         * ErrorResponse
+         * @description The one form of every error.
+         * @example {
+         *       "detail": {
+         *         "expected": "the number of an enrolled patient",
+         *         "remedy": "choose one from the list of patients",
+         *         "what": "there is no patient 7"
+         *       }
+         *     }
+         */
+        ErrorResponse: {
+            detail: components["schemas"]["ErrorDetail"];
+        };
+        /**
+         * EventPublic
+         * @description An event as the browser sees it.
+         */
+        EventPublic: {
+            /** Data */
+            data?: {
+                [key: string]: unknown;
+            };
+            /** Id */
+            id: number;
+            /** Kind */
+            kind: string;
+            /**
+             * T
+             * Format: date-time
+             */
+            t?: string;
+            /**
+             * Text
+             * @default
+             */
+            text: string;
         };
         /**
          * ExoView
@@ -167,62 +653,600 @@ export interface components {
          */
         ExoView: {
             angle_rad: number[];
-            velocity_rad_s: number[];
-            torque_nm: number[];
+            blend: number;
+            clamped: string[];
             command_rad: number[];
             command_velocity_rad_s: number[];
-            clamped: string[];
-            speed_factor: number;
-            blend: number;
             fault: string;
+            speed_factor: number;
+            torque_nm: number[];
+            velocity_rad_s: number[];
         };
         /**
-         * JointLimits
-         * @description What one exoskeleton joint may do for this patient.
+         * Follow
+         * @description Which body of a sensor is the patient.
+         * @example {
+         *       "body": "72057594037944738",
+         *       "sensor": "127.0.0.1"
+         *     }
          */
-        JointLimits: {
-            joint: string;
-            min_rad: number;
-            max_rad: number;
-            velocity_rad_s: number;
-            acceleration_rad_s2: number;
-        };
-        /**
-         * Timing
-         * @description How old things are.
-         */
-        Timing: {
-            datagram_to_command_s: number | null;
-            tick_s: number;
-            overruns: number;
-            datagrams: number;
-            datagrams_refused: number;
-            ticks_dropped: number;
-            recorder_dropped: number;
+        Follow: {
+            /** Body */
+            body: string;
+            /** Sensor */
+            sensor: string;
         };
         /**
          * GameView
          * @description Everything a scene needs to draw one instant.
          */
         GameView: {
+            /** @default [] */
+            feedback: string[];
             game: string;
-            phase: string;
-            score: number;
-            streak: number;
-            round: number;
-            rounds: number;
-            targets: components["schemas"]["TargetView"][];
             hand: [
                 number,
                 number,
                 number
             ];
-            time_left_s: number;
             hits: number;
-            misses: number;
             level: number;
-            /** @default [] */
-            feedback: string[];
+            misses: number;
+            phase: string;
+            round: number;
+            rounds: number;
+            score: number;
+            streak: number;
+            targets: components["schemas"]["TargetView"][];
+            time_left_s: number;
+        };
+        /**
+         * JointCurves
+         * @description One arm's angles over time in radians; null where they could not be known.
+         */
+        JointCurves: {
+            /** Elbow */
+            elbow: (number | null)[];
+            /** Elevation */
+            elevation: (number | null)[];
+            /** Plane */
+            plane: (number | null)[];
+            /** Rotation */
+            rotation: (number | null)[];
+        };
+        /**
+         * JointLimits
+         * @description What one exoskeleton joint may do for this patient.
+         */
+        JointLimits: {
+            acceleration_rad_s2: number;
+            joint: string;
+            max_rad: number;
+            min_rad: number;
+            velocity_rad_s: number;
+        };
+        /**
+         * JointRange
+         * @description How far one joint may be moved, in radians.
+         */
+        JointRange: {
+            /** Max Rad */
+            max_rad: number;
+            /** Min Rad */
+            min_rad: number;
+        };
+        /**
+         * Latencies
+         * @description How old things are.
+         */
+        Latencies: {
+            datagram_to_command: components["schemas"]["Percentiles"];
+            datagram_to_picture: components["schemas"]["Percentiles"];
+        };
+        /**
+         * LimitsSnapshot
+         * @description What one joint of the exoskeleton was allowed in this session.
+         */
+        LimitsSnapshot: {
+            /** Acceleration Rad S2 */
+            acceleration_rad_s2: number;
+            /** Joint */
+            joint: string;
+            /** Max Rad */
+            max_rad: number;
+            /** Min Rad */
+            min_rad: number;
+            /** Velocity Rad S */
+            velocity_rad_s: number;
+        };
+        /**
+         * LiveMessage
+         * @description One message of `/api/stream`; answered by `Acknowledgement` once it is drawn.
+         */
+        LiveMessage: {
+            game: components["schemas"]["GameView"] | null;
+            session: components["schemas"]["SessionView"] | null;
+            tick: components["schemas"]["LiveTick"];
+        };
+        /**
+         * LiveTick
+         * @description One tick of the station as it leaves at its tail.
+         */
+        LiveTick: {
+            affected: components["schemas"]["ArmView"];
+            blockers: string[];
+            body: components["schemas"]["BodyView"] | null;
+            exo: components["schemas"]["ExoView"];
+            healthy: components["schemas"]["ArmView"] | null;
+            healthy_side: components["schemas"]["Side"];
+            index: number;
+            limits: components["schemas"]["JointLimits"][];
+            may_enable: boolean;
+            reason: string;
+            sensors: components["schemas"]["SensorView"][];
+            session: string;
+            state: components["schemas"]["DriveState"];
+            t_newest_received_s: number | null;
+            t_s: number;
+            target: components["schemas"]["ArmView"] | null;
+            timing: components["schemas"]["Timing"];
+            trunk_lean_m: number;
+            warnings: string[];
+        };
+        /**
+         * MetricPublic
+         * @description A figure as the browser sees it.
+         */
+        MetricPublic: {
+            /**
+             * Caveat
+             * @description Key of what must be said beside it, or empty.
+             * @default
+             */
+            caveat: string;
+            /**
+             * Joint
+             * @default
+             */
+            joint: string;
+            /**
+             * Label
+             * @description Key of its name in the browser's strings.
+             * @default
+             */
+            label: string;
+            /** Name */
+            name: string;
+            /**
+             * Side
+             * @default
+             */
+            side: string;
+            /**
+             * Unit
+             * @default
+             */
+            unit: string;
+            /**
+             * Value
+             * @description Null where it could not be measured.
+             */
+            value: number | null;
+        };
+        /**
+         * NewCredentials
+         * @description The first account's name and password.
+         * @example {
+         *       "name": "Dr. Lin",
+         *       "password": "three quiet herons"
+         *     }
+         */
+        NewCredentials: {
+            /** Name */
+            name: string;
+            /** Password */
+            password: string;
+        };
+        /**
+         * PassiveRange
+         * @description How far a therapist could move each joint of the affected arm by hand, measured at enrolment (SR-18).
+         *
+         *     Plane (0 = sideways, +90° = ahead) and elevation of the upper arm's swing, the humerus' rotation (internal +), elbow
+         *     flexion. The defaults are cautious: within what a relaxed adult arm allows.
+         */
+        PassiveRange: {
+            /**
+             * @default {
+             *       "max_rad": 2.356194490192345,
+             *       "min_rad": 0
+             *     }
+             */
+            elbow: components["schemas"]["JointRange"];
+            /**
+             * @default {
+             *       "max_rad": 1.7453292519943295,
+             *       "min_rad": 0
+             *     }
+             */
+            elevation: components["schemas"]["JointRange"];
+            /**
+             * @default {
+             *       "max_rad": 2.0943951023931953,
+             *       "min_rad": -0.3490658503988659
+             *     }
+             */
+            plane: components["schemas"]["JointRange"];
+            /**
+             * @default {
+             *       "max_rad": 1.3962634015954636,
+             *       "min_rad": -1.0471975511965976
+             *     }
+             */
+            rotation: components["schemas"]["JointRange"];
+        };
+        /**
+         * PatientCreate
+         * @description What a therapist fills in at enrolment.
+         */
+        PatientCreate: {
+            /**
+             * Healthy Side
+             * @description The patient's own left or right.
+             * @enum {string}
+             */
+            healthy_side: "left" | "right";
+            /**
+             * Name
+             * @description A name or a pseudonym.
+             */
+            name: string;
+            /**
+             * Notes
+             * @default
+             */
+            notes: string;
+            passive_range?: components["schemas"]["PassiveRange"];
+        };
+        /**
+         * PatientPublic
+         * @description A patient as the browser sees it.
+         */
+        PatientPublic: {
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            /**
+             * Healthy Side
+             * @description The patient's own left or right.
+             * @enum {string}
+             */
+            healthy_side: "left" | "right";
+            /** Id */
+            id: number;
+            /**
+             * Name
+             * @description A name or a pseudonym.
+             */
+            name: string;
+            /**
+             * Notes
+             * @default
+             */
+            notes: string;
+            passive_range?: components["schemas"]["PassiveRange"];
+            /**
+             * Updated At
+             * Format: date-time
+             */
+            updated_at: string;
+        };
+        /**
+         * PatientUpdate
+         * @description What a therapist may change later; whatever is left out stays.
+         */
+        PatientUpdate: {
+            /** Healthy Side */
+            healthy_side?: ("left" | "right") | null;
+            /** Name */
+            name?: string | null;
+            /** Notes */
+            notes?: string | null;
+            passive_range?: components["schemas"]["PassiveRange"] | null;
+        };
+        /**
+         * Percentiles
+         * @description A latency over its newest samples, in seconds; null while there are none.
+         */
+        Percentiles: {
+            /** P50 S */
+            p50_s: number | null;
+            /** P99 S */
+            p99_s: number | null;
+            /** Samples */
+            samples: number;
+        };
+        /**
+         * SensorView
+         * @description One sensor as the therapist sees it.
+         */
+        SensorView: {
+            age_s: number;
+            aligned: boolean;
+            clock_offset_s: number;
+            dialect: string;
+            frames_per_s: number;
+            is_reference: boolean;
+            joints_in_room: ([
+                number,
+                number,
+                number
+            ] | null)[];
+            joints_tracked: number;
+            latency_s: number;
+            position_in_room: [
+                number,
+                number,
+                number
+            ] | null;
+            refused_joints: number;
+            residual_m: number | null;
+            sensor: string;
+            warnings: string[];
+        };
+        /**
+         * SessionDetail
+         * @description A session with what it measured.
+         */
+        SessionDetail: {
+            /**
+             * Affected Side
+             * @enum {string}
+             */
+            affected_side: "left" | "right";
+            /** Ended At */
+            ended_at?: string | null;
+            /** Game */
+            game: string;
+            /** Id */
+            id: number;
+            /**
+             * Level
+             * @description Difficulty at the start, 0 to 1.
+             */
+            level: number;
+            limits?: components["schemas"]["AllLimits"];
+            /** Measured */
+            measured: boolean;
+            /**
+             * Metrics
+             * @default []
+             */
+            metrics: components["schemas"]["MetricPublic"][];
+            /** Pain After */
+            pain_after?: number | null;
+            /** Pain Before */
+            pain_before?: number | null;
+            /** Patient Id */
+            patient_id: number;
+            /** Patient Name */
+            patient_name: string;
+            /** Seed */
+            seed: number;
+            /**
+             * Started At
+             * Format: date-time
+             */
+            started_at?: string;
+            /** @default open */
+            status: components["schemas"]["SessionStatus"];
+            /** Therapist Name */
+            therapist_name: string;
+            /**
+             * Version
+             * @description The program's version.
+             * @default
+             */
+            version: string;
+        };
+        /**
+         * SessionEnd
+         * @description Ending a session.
+         * @example {
+         *       "pain_after": 1
+         *     }
+         */
+        SessionEnd: {
+            /** Pain After */
+            pain_after?: number | null;
+        };
+        /**
+         * SessionOpen
+         * @description Opening a session; the affected side is said once more so that a slip is found before the arm moves.
+         * @example {
+         *       "confirmed_affected_side": "left",
+         *       "game": "reach",
+         *       "level": 0.3,
+         *       "pain_before": 2,
+         *       "patient_id": 1
+         *     }
+         */
+        SessionOpen: {
+            /**
+             * Confirmed Affected Side
+             * @enum {string}
+             */
+            confirmed_affected_side: "left" | "right";
+            /**
+             * Game
+             * @default reach
+             */
+            game: string;
+            /**
+             * Level
+             * @default 0.3
+             */
+            level: number;
+            /** Pain Before */
+            pain_before?: number | null;
+            /** Patient Id */
+            patient_id: number;
+        };
+        /**
+         * SessionPhase
+         * @description Where the open session stands, for people.
+         * @enum {unknown}
+         */
+        SessionPhase: "held" | "interrupted" | "preparing" | "running" | "saving" | "stopped";
+        /**
+         * SessionPublic
+         * @description A session as the browser sees it.
+         */
+        SessionPublic: {
+            /**
+             * Affected Side
+             * @enum {string}
+             */
+            affected_side: "left" | "right";
+            /** Ended At */
+            ended_at?: string | null;
+            /** Game */
+            game: string;
+            /** Id */
+            id: number;
+            /**
+             * Level
+             * @description Difficulty at the start, 0 to 1.
+             */
+            level: number;
+            limits?: components["schemas"]["AllLimits"];
+            /** Measured */
+            measured: boolean;
+            /** Pain After */
+            pain_after?: number | null;
+            /** Pain Before */
+            pain_before?: number | null;
+            /** Patient Id */
+            patient_id: number;
+            /** Patient Name */
+            patient_name: string;
+            /** Seed */
+            seed: number;
+            /**
+             * Started At
+             * Format: date-time
+             */
+            started_at?: string;
+            /** @default open */
+            status: components["schemas"]["SessionStatus"];
+            /** Therapist Name */
+            therapist_name: string;
+            /**
+             * Version
+             * @description The program's version.
+             * @default
+             */
+            version: string;
+        };
+        /**
+         * SessionStatus
+         * @description Where a session stands.
+         * @enum {string}
+         */
+        SessionStatus: "open" | "ended" | "interrupted";
+        /**
+         * SessionView
+         * @description The open session in a line.
+         */
+        SessionView: {
+            affected_side: components["schemas"]["Side"];
+            elapsed_s: number;
+            game: string;
+            id: number;
+            patient: string;
+            phase: components["schemas"]["SessionPhase"];
+            started: string;
+        };
+        /**
+         * Side
+         * @description A side of the patient's body, always the patient's own left or right.
+         * @enum {unknown}
+         */
+        Side: "left" | "right";
+        /**
+         * Station
+         * @description The real-time side.
+         * @example {
+         *       "device": [
+         *         {
+         *           "acceleration_rad_s2": 6,
+         *           "joint": "elbow",
+         *           "max_rad": 2.4,
+         *           "min_rad": 0,
+         *           "velocity_rad_s": 1.5
+         *         }
+         *       ],
+         *       "drive": "simulated",
+         *       "latency": {
+         *         "datagram_to_command": {
+         *           "p50_s": 0.006,
+         *           "p99_s": 0.012,
+         *           "samples": 1000
+         *         },
+         *         "datagram_to_picture": {
+         *           "p50_s": 0.04,
+         *           "p99_s": 0.08,
+         *           "samples": 1000
+         *         }
+         *       },
+         *       "ports": {
+         *         "kinectv2-osc": 12345
+         *       },
+         *       "reason": "no session is open",
+         *       "restarts": 0,
+         *       "simulated": true,
+         *       "state": "off",
+         *       "up": true
+         *     }
+         */
+        Station: {
+            /** Device */
+            device: components["schemas"]["LimitsSnapshot"][];
+            /** Drive */
+            drive: string;
+            latency: components["schemas"]["Latencies"];
+            /** Ports */
+            ports: {
+                [key: string]: number;
+            };
+            /** Reason */
+            reason: string;
+            /** Restarts */
+            restarts: number;
+            /** Simulated */
+            simulated: boolean;
+            state: components["schemas"]["DriveState"];
+            /** Up */
+            up: boolean;
+        };
+        /**
+         * Status
+         * @description What a page needs to know before anybody has logged in.
+         * @example {
+         *       "demo": true,
+         *       "first_start": false,
+         *       "version": "0.1.0"
+         *     }
+         */
+        Status: {
+            account: components["schemas"]["AccountPublic"] | null;
+            /** Demo */
+            demo: boolean;
+            /** First Start */
+            first_start: boolean;
+            /** Version */
+            version: string;
         };
         /**
          * TargetView
@@ -235,8 +1259,21 @@ export interface components {
                 number,
                 number
             ];
-            radius_m: number;
             progress: number;
+            radius_m: number;
+        };
+        /**
+         * Timing
+         * @description How old things are.
+         */
+        Timing: {
+            datagram_to_command_s: number | null;
+            datagrams: number;
+            datagrams_refused: number;
+            overruns: number;
+            recorder_dropped: number;
+            tick_s: number;
+            ticks_dropped: number;
         };
     };
     responses: never;
@@ -246,4 +1283,1065 @@ export interface components {
     pathItems: never;
 }
 export type $defs = Record<string, never>;
-export type operations = Record<string, never>;
+export interface operations {
+    demo_api_demo_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["DemoWelcome"];
+                };
+            };
+            /** @description Not allowed from here */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
+    login_api_login_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Credentials"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AccountPublic"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description The form is filled in wrongly */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Asked too often */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
+    logout_api_logout_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
+    me_api_me_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AccountPublic"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
+    list_patients_api_patients_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PatientPublic"][];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
+    enrol_patient_api_patients_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["PatientCreate"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PatientPublic"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description The form is filled in wrongly */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
+    read_patient_api_patients__patient_id__get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                patient_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PatientPublic"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description There is no such thing */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description The form is filled in wrongly */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
+    change_patient_api_patients__patient_id__patch: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                patient_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["PatientUpdate"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PatientPublic"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description There is no such thing */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description The form is filled in wrongly */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
+    read_history_api_patients__patient_id__sessions_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                patient_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionDetail"][];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description There is no such thing */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description The form is filled in wrongly */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
+    open_session_api_sessions_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SessionOpen"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionPublic"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description There is no such thing */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Refused in the present state; the reason is in the detail */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description The form is filled in wrongly */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
+    read_current_api_sessions_current_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionPublic"] | null;
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
+    read_session_api_sessions__session_id__get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                session_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionDetail"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description There is no such thing */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description The form is filled in wrongly */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
+    control_api_sessions__session_id__control_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                session_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Control"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Answer"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description There is no such thing */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Refused in the present state; the reason is in the detail */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description The form is filled in wrongly */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
+    read_curves_api_sessions__session_id__curves_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                session_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Curves"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description There is no such thing */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description The form is filled in wrongly */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
+    end_session_api_sessions__session_id__end_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                session_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SessionEnd"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionDetail"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description There is no such thing */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Refused in the present state; the reason is in the detail */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description The form is filled in wrongly */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
+    read_events_api_sessions__session_id__events_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                session_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["EventPublic"][];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description There is no such thing */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description The form is filled in wrongly */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
+    follow_api_sessions__session_id__follow_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                session_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Follow"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Answer"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description There is no such thing */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Refused in the present state; the reason is in the detail */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description The form is filled in wrongly */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
+    setup_api_setup_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewCredentials"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AccountPublic"];
+                };
+            };
+            /** @description Refused in the present state; the reason is in the detail */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description The form is filled in wrongly */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Asked too often */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
+    read_station_api_station_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Station"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
+    status_api_status_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Status"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
+}
