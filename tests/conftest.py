@@ -6,6 +6,11 @@ import os
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
+
+# The same examples every time, and no deadlines: a busy machine is not a fault.
+settings.register_profile("house", derandomize=True, deadline=None)
+settings.load_profile("house")
 
 RECORDINGS = os.environ.get("MIRRORLIMB_RECORDINGS", "")
 
