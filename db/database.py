@@ -45,19 +45,14 @@ class Database:
 
 
 def open_database(path: Path | str) -> Database:
-    """Open, or make, the database at `path` (a file, or ":memory:") and bring it to the newest form.
+    """Open, or make, the database file at `path` and bring it to the newest form.
 
     Raises:
         CannotOpenError: not a database, no permission, no such folder.
         TooNewError: written by a newer version of this program.
     """
-    engine = create_sqlite_engine(str(path))
-    try:
-        upgrade(engine, str(path))
-    except BaseException:
-        engine.dispose()
-        raise
-    return Database(engine)
+    upgrade(str(path))
+    return Database(create_sqlite_engine(str(path)))
 
 
 def _not_stored(engine: Engine, error: DBAPIError) -> NotStoredError:

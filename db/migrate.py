@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from alembic import command
@@ -9,33 +11,43 @@ from alembic.config import Config
 from alembic.runtime.migration import MigrationContext
 from alembic.script import ScriptDirectory
 from alembic.util.exc import CommandError
-from sqlalchemy import Connection, Engine
+from sqlalchemy import Connection
 from sqlalchemy.exc import DatabaseError as SqlDatabaseError
 
 from db.errors import CannotOpenError, TooNewError
+from db.sqlite import create_sqlite_engine
 
 MIGRATIONS = Path(__file__).parent / "migrations"
 
 
-def upgrade(engine: Engine, name: str, revision: str = "head") -> None:
-    """Bring the database to `revision`; all of it, or nothing.
+def upgrade(path: str, revision: str = "head") -> None:
+    """Bring the database at `path` to `revision`; all of it, or nothing.
 
     Raises:
         CannotOpenError: not a database, no permission, no such folder.
         TooNewError: written by a newer version of this program.
     """
+    with _connection(path) as connection:
+        _refuse_newer(connection, path)
+        command.upgrade(_config(connection), revision)
+
+
+def downgrade(path: str, revision: str) -> None:
+    """Take the database at `path` back to `revision` ("base" is empty)."""
+    with _connection(path) as connection:
+        command.downgrade(_config(connection), revision)
+
+
+@contextmanager
+def _connection(path: str) -> Iterator[Connection]:
+    engine = create_sqlite_engine(path, enforce_foreign_keys=False)
     try:
         with engine.begin() as connection:
-            _refuse_newer(connection, name)
-            command.upgrade(_config(connection), revision)
+            yield connection
     except SqlDatabaseError as error:
-        raise _cannot_open(name, error) from error
-
-
-def downgrade(engine: Engine, revision: str) -> None:
-    """Take the database back to `revision` ("base" is empty)."""
-    with engine.begin() as connection:
-        command.downgrade(_config(connection), revision)
+        raise _cannot_open(path, error) from error
+    finally:
+        engine.dispose()
 
 
 def _config(connection: Connection) -> Config:

@@ -56,7 +56,7 @@ class PatientBase(SQLModel):
     name: str = Field(min_length=1, max_length=120, description="A name or a pseudonym.")
     healthy_side: SideName = Field(sa_type=String, description="The patient's own left or right.")
     notes: str = Field(default="", max_length=10_000)
-    passive_range: PassiveRange = Field(default_factory=PassiveRange, sa_type=Document(PassiveRange))  # type: ignore[call-overload]  # sa_type takes instances too
+    passive_range: PassiveRange = Field(default_factory=PassiveRange, sa_type=Document(PassiveRange))
 
 
 class Patient(PatientBase, table=True):
@@ -73,13 +73,13 @@ class Patient(PatientBase, table=True):
 class PatientCreate(PatientBase):
     """What a therapist fills in at enrolment."""
 
-    model_config = ConfigDict(extra="forbid", str_strip_whitespace=True)
+    model_config = {"extra": "forbid", "str_strip_whitespace": True}
 
 
 class PatientUpdate(SQLModel):
     """What a therapist may change later; whatever is left out stays."""
 
-    model_config = ConfigDict(extra="forbid", str_strip_whitespace=True)
+    model_config = {"extra": "forbid", "str_strip_whitespace": True}
 
     name: str | None = Field(default=None, min_length=1, max_length=120)
     healthy_side: SideName | None = None

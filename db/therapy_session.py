@@ -53,10 +53,10 @@ class SessionBase(SQLModel):
     level: float = Field(ge=0, le=1, description="Difficulty at the start, 0 to 1.")
     started_at: datetime = Field(default_factory=now_utc, sa_type=UtcDateTime)
     ended_at: datetime | None = Field(default=None, sa_type=UtcDateTime)
-    status: SessionStatus = Field(default=SessionStatus.OPEN, sa_type=word_of(SessionStatus))  # type: ignore[call-overload]  # sa_type takes instances too
+    status: SessionStatus = Field(default=SessionStatus.OPEN, sa_type=word_of(SessionStatus))
     pain_before: int | None = Field(default=None, ge=0, le=10)
     pain_after: int | None = Field(default=None, ge=0, le=10)
-    limits: AllLimits = Field(default_factory=AllLimits, sa_type=Document(AllLimits))  # type: ignore[call-overload]
+    limits: AllLimits = Field(default_factory=AllLimits, sa_type=Document(AllLimits))
     version: str = Field(default="", max_length=40, description="The program's version.")
 
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from sqlalchemy import Select, delete
+from sqlalchemy import delete
 from sqlmodel import Session, col, select
+from sqlmodel.sql.expression import Select
 
 from db.account import Account
 from db.patient import Patient
@@ -34,7 +35,7 @@ def find_session(session: Session, session_id: int) -> TherapySession | None:
 
 def sessions_left_open(session: Session) -> list[TherapySession]:
     """Sessions that a crash left open, or whose metrics could not be stored."""
-    unfinished = (TherapySession.status == SessionStatus.OPEN) | (col(TherapySession.measured).is_(False))
+    unfinished = (col(TherapySession.status) == SessionStatus.OPEN) | (col(TherapySession.measured).is_(False))
     return list(session.exec(select(TherapySession).where(unfinished).order_by(col(TherapySession.id))))
 
 
@@ -59,20 +60,20 @@ def replace_metrics(session: Session, session_id: int, metrics: Iterable[Metric]
 
 def public_session(session: Session, session_id: int) -> SessionPublic | None:
     """A session with the names of patient and therapist."""
-    found = session.exec(_named().where(TherapySession.id == session_id)).first()
+    found = session.exec(_named().where(col(TherapySession.id) == session_id)).first()
     return None if found is None else SessionPublic.model_validate(found[0], update=_names(found))
 
 
 def session_detail(session: Session, session_id: int) -> SessionDetail | None:
     """A session with its figures."""
-    found = session.exec(_named().where(TherapySession.id == session_id)).first()
+    found = session.exec(_named().where(col(TherapySession.id) == session_id)).first()
     return None if found is None else _with_metrics(session, [found])[0]
 
 
 def history_of(session: Session, patient_id: int) -> list[SessionDetail]:
     """A patient's sessions with their figures, newest first."""
     rows = session.exec(
-        _named().where(TherapySession.patient_id == patient_id).order_by(col(TherapySession.id).desc())
+        _named().where(col(TherapySession.patient_id) == patient_id).order_by(col(TherapySession.id).desc())
     ).all()
     return _with_metrics(session, rows)
 
@@ -80,7 +81,7 @@ def history_of(session: Session, patient_id: int) -> list[SessionDetail]:
 _Named = tuple[TherapySession, str, str]
 
 
-def _named() -> Select[_Named]:
+def _named() -> Select[TherapySession, str, str]:
     return (
         select(TherapySession, Patient.name, Account.name)
         .where(TherapySession.patient_id == Patient.id)
