@@ -106,8 +106,20 @@ class FollowBody(Wish, frozen=True, kw_only=True, tag="follow"):
 class Heartbeat(Wish, frozen=True, kw_only=True, tag="heartbeat"):
     """The service is alive; without one for 250 ms the station holds. Not answered."""
 
+    ticks_missed: int = 0
+    """Ticks that the service never saw because a newer one replaced them (`Timing.ticks_dropped`)."""
+
 
 AnyWish = OpenSession | CloseSession | Enable | Hold | Resume | Stop | Reset | FollowBody | Heartbeat
+
+
+class DemoGoal(msgspec.Struct, frozen=True, kw_only=True):
+    """Where the demonstration's virtual patient should reach now; not a wish, and never part of a real session."""
+
+    hand_in_trunk: Point | None
+    """Where the *healthy* hand should go, in the patient's trunk frame; None = rest."""
+    exo_rad: tuple[float, ...] = ()
+    """The exoskeleton's measured angles (`EXO_JOINTS`): the affected arm is where it holds it."""
 
 
 # ---------------------------------------------------------------- events: station → service

@@ -1,0 +1,73 @@
+"""The configuration: what is written is read, and what is wrong is named."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import msgspec
+import pytest
+
+from fusion.errors import InputError
+from server.config import Config, StationStart, read_config, read_start, write_start
+from server.messages import EXO_JOINTS
+
+
+def _file(folder: Path, text: str) -> Path:
+    path = folder / "mirrorlimb.toml"
+    path.write_text(text)
+    return path
+
+
+def test_an_empty_file_gives_the_documented_defaults(tmp_path: Path) -> None:
+    config = read_config(_file(tmp_path, ""))
+    assert config == Config()
+    assert config.station.sensors.ports["kinectv2-osc"] == 12345
+    assert tuple(limits.joint for limits in config.station.device) == EXO_JOINTS
+
+
+def test_nested_values_are_read(tmp_path: Path) -> None:
+    config = read_config(_file(tmp_path, 'port = 8123\n[station.sensors]\nbind = "192.168.7.1"\n'))
+    assert (config.port, config.station.sensors.bind) == (8123, "192.168.7.1")
+
+
+@pytest.mark.parametrize(
+    ("text", "named"),
+    [
+        ("prot = 1", ["'prot'", "port"]),
+        ("[station.sensors]\nbnd = '127.0.0.1'", ["'station.sensors.bnd'", "allowed_senders"]),
+        ("[[station.device]]\njiont = 'plane'", ["station.device"]),
+        ("[station]\nrate_hz = 'fast'", ["'station.rate_hz'", "int"]),
+        ("[station.gate]\nblend_s = 0.5", ["'station.gate.blend_s'", ">= 2"]),
+        ("port = 70000", ["'port'", "65535"]),
+        ("[station]\ndevice = []", ["station.device", "plane, elevation, rotation, elbow"]),
+        ("port = ", ["not well-formed", "TOML"]),
+    ],
+)
+def test_a_bad_key_or_value_is_named_with_what_was_expected(tmp_path: Path, text: str, named: list[str]) -> None:
+    path = _file(tmp_path, text)
+    with pytest.raises(InputError) as caught:
+        read_config(path)
+    for part in [str(path), *named]:
+        assert part in str(caught.value)
+
+
+def test_a_missing_file_is_named(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"nowhere\.toml"):
+        read_config(tmp_path / "nowhere.toml")
+
+
+def test_limits_without_room_are_refused(tmp_path: Path) -> None:
+    limits = msgspec.structs.replace(Config().station.device[0], max_rad=-1.0)
+    station = msgspec.structs.replace(Config().station, device=(limits, *Config().station.device[1:]))
+    path = tmp_path / "start.json"
+    write_start(StationStart(data="d", channels="c", station=station), path)
+    with pytest.raises(InputError, match="'plane' leave no movement"):
+        read_start(path)
+
+
+def test_the_start_file_comes_back_as_it_was_written(tmp_path: Path) -> None:
+    start = StationStart(data="/data", channels="/run/x", demo=True)
+    path = tmp_path / "start.json"
+    write_start(start, path)
+    assert read_start(path) == start
+    assert path.stat().st_mode & 0o077 == 0
