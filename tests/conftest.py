@@ -3,6 +3,11 @@
 from __future__ import annotations
 
 import os
+import re
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
@@ -39,3 +44,48 @@ def recordings() -> Path:
     if not folder.is_dir():
         pytest.fail(f"MIRRORLIMB_RECORDINGS names '{RECORDINGS}', which is no folder.")
     return folder
+
+
+@dataclass(frozen=True)
+class RunningService:
+    """A real `mirrorlimb serve` in a process of its own."""
+
+    address: str
+    data: Path
+    process: subprocess.Popen[str]
+
+
+def _address_printed(process: subprocess.Popen[str]) -> str:
+    lines = []
+    for line in process.stdout:
+        lines.append(line)
+        found = re.search(r"http://\S+", line)
+        if found:
+            return found[0].rstrip("/")
+    process.wait(timeout=10)
+    pytest.fail(f"mirrorlimb serve ended with {process.returncode} and said:\n{''.join(lines)}")
+
+
+@pytest.fixture
+def start_service(tmp_path: Path) -> Iterator[Callable[..., RunningService]]:
+    """Start `mirrorlimb serve` on free ports with a data folder of its own; ended when the test is over."""
+    started: list[subprocess.Popen[str]] = []
+
+    def start(*options: str) -> RunningService:
+        config = tmp_path / "mirrorlimb.toml"
+        config.write_text(
+            "port = 0\n[station.sensors.ports]\n'kinectv2-osc' = 0\nosceleton2 = 0\nmirrorlimb = 0\n", "utf-8"
+        )
+        data = tmp_path / "data"
+        command = [str(Path(sys.executable).with_name("mirrorlimb")), "serve", "--config", config, "--data", data]
+        process = subprocess.Popen(
+            [*command, *options], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, stdin=subprocess.DEVNULL
+        )
+        started.append(process)
+        return RunningService(_address_printed(process), data, process)
+
+    yield start
+    for process in started:
+        process.terminate()
+    for process in started:
+        process.wait(timeout=20)
