@@ -1,2 +1,60 @@
-// The patient's screen; its scene comes here.
-export {};
+// The patient's screen: takes the stream, draws sixty times a second what it says, and decides nothing.
+import "./play.css";
+import { connectLive } from "../api/live";
+import type { LiveMessage } from "../api/types";
+import { t } from "../strings";
+import { accessOf } from "./access";
+import { keepAwake } from "./awake";
+import { addControls } from "./controls";
+import { Picture } from "./picture";
+import type { Access } from "./screen";
+import { Sound } from "./sound";
+
+function part<E extends HTMLElement>(id: string): E {
+  const element = document.getElementById(id);
+  if (!element) throw new Error(`play.html has no element "${id}"`);
+  return element as E;
+}
+
+function start(): void {
+  const page = part("play");
+  const sound = new Sound();
+  addControls(part("controls"), page, sound);
+  const picture = open(page, sound);
+  if (!picture) return;
+  let access: Access = "connecting";
+  connectLive(
+    (message: LiveMessage) => picture.take(message, seconds()),
+    (link) => {
+      access = link;
+      void accessOf(link).then((known) => {
+        if (access === link) access = known;
+      });
+    },
+  );
+  const draw = () => {
+    requestAnimationFrame(draw);
+    picture.draw(access, seconds());
+  };
+  draw();
+  keepAwake();
+}
+
+/** The picture, or null with a plain sentence on the page where the browser has no WebGL. */
+function open(page: HTMLElement, sound: Sound): Picture | null {
+  const overlay = part("overlay");
+  try {
+    return new Picture(page, part<HTMLCanvasElement>("picture"), part("hud"), overlay, sound);
+  } catch {
+    overlay.innerHTML = '<div class="panel" role="alert"><h1 class="title"></h1><p></p></div>';
+    overlay.querySelector("h1")?.append(t("play.unable.title"));
+    overlay.querySelector("p")?.append(t("play.unable.text"));
+    return null;
+  }
+}
+
+function seconds(): number {
+  return performance.now() / 1000;
+}
+
+start();

@@ -1,0 +1,123 @@
+// Everything on the patient's screen together: takes messages as they come, draws a frame when asked.
+import type { Group, Vector3 } from "three";
+import type { LiveMessage } from "../api/types";
+import { type Changes, changesBetween, type GameView } from "./changes";
+import { Effects } from "./effects";
+import { garden } from "./garden";
+import { Guide } from "./guide";
+import { Hud } from "./hud";
+import { Limbs } from "./limbs";
+import { Orchard } from "./orchard";
+import { Overlay } from "./overlay";
+import { Pace } from "./pace";
+import { type Access, type Face, faceFor } from "./screen";
+import type { Cue, Sound } from "./sound";
+import { Stage } from "./stage";
+import { table } from "./table";
+
+const LONGEST_STEP_S = 0.1;
+const CLOUDS_M_S = 0.12;
+
+export class Picture {
+  private readonly stage: Stage;
+  private readonly limbs: Limbs;
+  private readonly orchard = new Orchard();
+  private readonly guide = new Guide();
+  private readonly stillness = matchMedia("(prefers-reduced-motion: reduce)");
+  private readonly effects = new Effects(() => this.stillness.matches);
+  private readonly clouds: Group;
+  private readonly hud: Hud;
+  private readonly overlay: Overlay;
+  private readonly pace = new Pace();
+  private newest: LiveMessage | null = null;
+  private arrived_s = 0;
+  private game: GameView | null = null;
+  private drawn = 0;
+  private last_s = 0;
+
+  /** Throws where the browser has no WebGL. */
+  constructor(
+    private readonly page: HTMLElement,
+    canvas: HTMLCanvasElement,
+    hud: HTMLElement,
+    overlay: HTMLElement,
+    private readonly sound: Sound,
+  ) {
+    this.stage = new Stage(canvas);
+    this.limbs = new Limbs((side) => this.stage.look(side));
+    this.hud = new Hud(hud);
+    this.overlay = new Overlay(overlay);
+    const scenery = garden();
+    this.clouds = scenery.clouds;
+    const parts = [scenery.group, table(), this.guide.group, this.orchard.group, this.limbs.group, this.effects.group];
+    this.stage.scene.add(...parts);
+  }
+
+  /** Keeps a message that arrived at `now_s`. */
+  take(message: LiveMessage, now_s: number): void {
+    this.newest = message;
+    this.arrived_s = now_s;
+    this.limbs.take(message.tick, now_s);
+    const changes = changesBetween(this.game, message.game);
+    this.game = message.game;
+    this.react(changes);
+  }
+
+  /** Draws the moment `now_s`. */
+  draw(access: Access, now_s: number): void {
+    const dt_s = Math.min(LONGEST_STEP_S, now_s - this.last_s);
+    this.last_s = now_s;
+    const face = faceFor(access, this.newest, now_s - this.arrived_s);
+    const hand = this.limbs.animate(now_s);
+    this.animate(face, dt_s, hand);
+    this.hud.show(this.game);
+    this.overlay.show(face, this.game, this.newest?.tick.reason ?? "", now_s);
+    this.stage.render();
+    const luxury = this.pace.frame(now_s);
+    if (luxury) this.stage.giveUp(luxury);
+    this.mark(face, hand);
+  }
+
+  private react(changes: Changes): void {
+    for (const place of this.orchard.show(this.game, changes)) {
+      this.effects.burst(place);
+      this.hud.popUp(changes.points, this.stage.onPage(place));
+    }
+    if (this.game) this.hud.announce(changes, this.game);
+    const cue = cueFor(changes);
+    if (cue) this.sound.play(cue);
+  }
+
+  private animate(face: Face, dt_s: number, hand: Vector3 | null): void {
+    const still = this.stillness.matches;
+    const { camera } = this.stage;
+    this.orchard.animate(dt_s, hand, camera, still);
+    this.effects.animate(dt_s, camera);
+    this.guide.lead(hand, face === "playing" ? this.orchard.nearest(hand) : null);
+    if (!still) this.clouds.position.x = (this.clouds.position.x + CLOUDS_M_S * dt_s) % 20;
+  }
+
+  /** What a test, or a person looking into the page, wants to know without looking at pixels. */
+  private mark(face: Face, hand: Vector3 | null): void {
+    const { dataset } = this.page;
+    this.drawn += 1;
+    dataset.drawn = String(this.drawn);
+    dataset.face = face;
+    dataset.state = this.newest?.tick.state ?? "";
+    dataset.phase = this.game?.phase ?? "";
+    dataset.score = String(this.game?.score ?? 0);
+    dataset.fps = this.pace.fps.toFixed(0);
+    dataset.hand = hand
+      ? hand
+          .toArray()
+          .map((value) => value.toFixed(3))
+          .join(" ")
+      : "";
+  }
+}
+
+function cueFor(changes: Changes): Cue | null {
+  if (changes.entered === "rest" || changes.entered === "over" || changes.entered === "playing") return changes.entered;
+  if (changes.hits > 0) return changes.streak ? "streak" : "hit";
+  return null;
+}

@@ -1,0 +1,55 @@
+// Which of its few faces the patient's screen shows: playing, or one plain sentence about what is going on.
+import type { Link } from "../api/live";
+import type { LiveMessage } from "../api/types";
+
+export type Face =
+  | "connecting"
+  | "lost"
+  | "locked"
+  | "welcome"
+  | "ready"
+  | "paused"
+  | "stopped"
+  | "fault"
+  | "waiting"
+  | "rest"
+  | "over"
+  | "playing";
+
+/** Without news for this long the picture is no longer true, whatever the connection says of itself. */
+export const STALE_S = 1;
+
+/** The connection as this page knows it: `locked` when the service answers but nobody has logged in here. */
+export type Access = Link | "locked";
+
+/** The face for this connection and the newest message, which came `age_s` ago. */
+export function faceFor(link: Access, message: LiveMessage | null, age_s: number): Face {
+  if (link === "lost" || link === "locked") return link;
+  if (!message) return link === "open" ? "welcome" : "connecting";
+  if (age_s > STALE_S) return "lost";
+  if (message.game?.phase === "over") return "over";
+  const { tick } = message;
+  if (!tick?.session) return "welcome";
+  return tick.state === "engaged" ? faceOfGame(message.game?.phase) : faceOfState(tick.state);
+}
+
+function faceOfState(state: string): Face {
+  if (state === "hold") return "paused";
+  if (state === "stopped" || state === "fault") return state;
+  return "ready";
+}
+
+function faceOfGame(phase: string | undefined): Face {
+  return phase === "rest" || phase === "playing" ? phase : "waiting";
+}
+
+/** The side whose arm is shown. */
+export function affectedSide(healthySide: string): "left" | "right" {
+  return healthySide === "left" ? "right" : "left";
+}
+
+/** Seconds as a person reads them: 65 → "1:05". Rounded up, so that "0:00" means over. */
+export function clockText(seconds: number): string {
+  const whole = Math.max(0, Math.ceil(seconds));
+  return `${Math.floor(whole / 60)}:${String(whole % 60).padStart(2, "0")}`;
+}

@@ -1,0 +1,82 @@
+// Gentle sounds made on the spot. Silent until somebody has touched the page (browsers ask for that) and while muted.
+
+const REMEMBERED_AS = "mirrorlimb.play.muted";
+const LOUDNESS = 0.16;
+
+/** A tone: when it begins after now, its pitch, how long it rings. */
+interface Tone {
+  readonly after_s: number;
+  readonly pitch_hz: number;
+  readonly ring_s: number;
+}
+
+export type Cue = "hit" | "streak" | "rest" | "playing" | "over";
+
+// A pentatonic scale: whatever follows whatever, it never sounds wrong.
+const G4 = 392;
+const C5 = 523.25;
+const D5 = 587.33;
+const E5 = 659.25;
+const G5 = 783.99;
+const A5 = 880;
+const C6 = 1046.5;
+
+const tone = (after_s: number, pitch_hz: number, ring_s: number): Tone => ({ after_s, pitch_hz, ring_s });
+const CUES: Record<Cue, readonly Tone[]> = {
+  hit: [tone(0, E5, 0.9), tone(0.09, A5, 1.2)],
+  streak: [tone(0, C5, 0.8), tone(0.09, E5, 0.8), tone(0.18, G5, 0.9), tone(0.27, C6, 1.6)],
+  rest: [tone(0, G5, 1.6), tone(0.3, D5, 1.8), tone(0.6, G4, 2.4)],
+  playing: [tone(0, G4, 0.9), tone(0.18, C5, 1.4)],
+  over: [tone(0, C5, 1.2), tone(0.2, E5, 1.2), tone(0.4, G5, 1.4), tone(0.6, C6, 2.6)],
+};
+
+export class Sound {
+  private context: AudioContext | null = null;
+  private silenced = localStorage.getItem(REMEMBERED_AS) === "yes";
+
+  constructor() {
+    const wake = () => this.wake();
+    addEventListener("pointerdown", wake);
+    addEventListener("keydown", wake);
+  }
+
+  get muted(): boolean {
+    return this.silenced;
+  }
+
+  mute(silenced: boolean): void {
+    this.silenced = silenced;
+    localStorage.setItem(REMEMBERED_AS, silenced ? "yes" : "no");
+    if (!silenced) this.play("hit");
+  }
+
+  play(cue: Cue): void {
+    const { context } = this;
+    if (!context || this.silenced) return;
+    for (const one of CUES[cue]) strike(context, one);
+  }
+
+  private wake(): void {
+    if (this.context) void this.context.resume();
+    else this.context = new AudioContext();
+  }
+}
+
+/** A soft bell: the tone and a faint octave above it, both dying away. */
+function strike(context: AudioContext, { after_s, pitch_hz, ring_s }: Tone): void {
+  for (const [multiple, share] of [
+    [1, 1],
+    [2, 0.25],
+  ] as const) {
+    const start_s = context.currentTime + after_s;
+    const oscillator = context.createOscillator();
+    const volume = context.createGain();
+    oscillator.frequency.value = pitch_hz * multiple;
+    volume.gain.setValueAtTime(0, start_s);
+    volume.gain.linearRampToValueAtTime(LOUDNESS * share, start_s + 0.012);
+    volume.gain.exponentialRampToValueAtTime(0.0005, start_s + ring_s / multiple);
+    oscillator.connect(volume).connect(context.destination);
+    oscillator.start(start_s);
+    oscillator.stop(start_s + ring_s);
+  }
+}
