@@ -31,6 +31,19 @@ class Workspace:
 
 
 @dataclass(frozen=True, slots=True)
+class GameSettings:
+    """What a therapist may choose before a game."""
+
+    rounds: int = 6
+    round_s: float = 60.0
+    rest_s: float = 20.0
+    start_level: float = 0.2
+    """Difficulty 0..1 at the start; adapted towards 75 % success."""
+    pinned_level: float | None = None
+    """A difficulty that stays, where the therapist wants no adaptation."""
+
+
+@dataclass(frozen=True, slots=True)
 class GameInput:
     """What the rules see at one step."""
 
