@@ -41,7 +41,7 @@ class MirrorlimbOsc:
     """Our own dialect."""
 
     name: str = "mirrorlimb"
-    port: int = 12346
+    port: int = 7120
 
     def claims(self, address: str) -> bool:
         """The address above."""

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from fusion.errors import RecordingError
 from fusion.recording.folder import read_folder
+from fusion.recording.log_reader import read_log
 from fusion.recording.recording import OtherStream, Recording, SkeletonStream, Trouble, TruthStream
 
 __all__ = ["OtherStream", "Recording", "SkeletonStream", "Trouble", "TruthStream", "read_recording"]
@@ -15,11 +16,13 @@ def read_recording(path: Path) -> Recording:
     """Read a recording.
 
     Args:
-        path: an interchange folder, or its `recording.json`.
+        path: an interchange folder, its `recording.json`, or a log (`.mcap`).
 
     Raises:
         RecordingError: names the file, the line where there is one, what was expected and what to do.
     """
     if not path.exists():
-        raise RecordingError(f"{path} does not exist", "a recording's folder", "check the path")
-    return read_folder(path if path.is_dir() else path.parent)
+        raise RecordingError(f"{path} does not exist", "a recording's folder or .mcap file", "check the path")
+    if path.is_dir():
+        return read_folder(path)
+    return read_folder(path.parent) if path.name == "recording.json" else read_log(path)

@@ -1,0 +1,130 @@
+"""Writes a recording in either form: the interchange folder, or the log."""
+
+from __future__ import annotations
+
+import csv
+import gzip
+import io
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+
+import msgspec
+
+from fusion.errors import InputError, MachineError
+from fusion.messages import SkeletonSample
+from fusion.recording.folder import FORMAT, SKELETON_COLUMNS, TRUTH_COLUMNS
+from fusion.recording.log import LogAbout, LogWriter
+from fusion.recording.recording import Recording, SkeletonStream, TruthStream
+from fusion.skeleton import JOINTS
+
+
+def write_recording(recording: Recording, path: Path) -> None:
+    """Write a recording as a log where the name ends in `.mcap`, else as an interchange folder.
+
+    The folder keeps tenths of a millimetre, microseconds and no receive times; the log keeps all.
+
+    Raises:
+        InputError: something of that name exists.
+        MachineError: it cannot be written.
+    """
+    if path.exists():
+        raise InputError(f"{path} exists", "a name that is free", "choose another, or remove it first")
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        (_write_log if path.suffix == ".mcap" else _write_folder)(recording, path)
+    except OSError as error:
+        remedy = "choose another folder, or free some space"
+        raise MachineError(f"cannot write {path} ({error.strerror})", "a folder to write to", remedy) from None
+
+
+# ---------------------------------------------------------------- folder
+
+
+def _write_folder(recording: Recording, folder: Path) -> None:
+    folder.mkdir()
+    names = [_file_name(stream.sensor, number) for number, stream in enumerate(recording.skeleton_streams)]
+    for name, stream in zip(names, recording.skeleton_streams, strict=True):
+        _write_table(folder / name, SKELETON_COLUMNS, _skeleton_rows(stream.samples))
+    if recording.truth is not None:
+        _write_table(folder / "truth.csv.gz", TRUTH_COLUMNS, _truth_rows(recording.truth))
+    (folder / "recording.json").write_bytes(msgspec.json.format(msgspec.json.encode(_manifest(recording, names))))
+
+
+def _file_name(sensor: str, number: int) -> str:
+    plain = "".join(letter if letter.isalnum() or letter in "-_." else "-" for letter in sensor)
+    return f"{number + 1}-{plain}.csv.gz"
+
+
+def _manifest(recording: Recording, names: list[str]) -> dict[str, object]:
+    streams = [_stream_entry(name, s) for name, s in zip(names, recording.skeleton_streams, strict=True)]
+    if recording.truth is not None:
+        streams.append({"file": "truth.csv.gz", "kind": "truth", "clock": recording.truth.clock})
+    manifest: dict[str, object] = {"format": FORMAT, "name": recording.name, "about": recording.about}
+    if recording.origin:
+        manifest["origin"] = recording.origin
+    if recording.healthy_side:
+        manifest["healthy_side"] = recording.healthy_side.value
+    if recording.events:
+        manifest["events"] = recording.events
+    return manifest | {"streams": streams}
+
+
+def _stream_entry(name: str, stream: SkeletonStream) -> dict[str, object]:
+    return {
+        "file": name,
+        "kind": "skeleton",
+        "sensor": stream.sensor,
+        "skeleton": "kinect-v2",
+        "primary": stream.primary,
+        "clock": stream.clock,
+    }
+
+
+def _skeleton_rows(samples: Iterable[SkeletonSample]) -> Iterator[tuple[object, ...]]:
+    written = set()
+    for sample in samples:
+        key = (f"{sample.t_s:.6f}", sample.body.replace(",", ";"))
+        if key not in written:  # a straggler of a live frame may repeat its time; a folder must not
+            written.add(key)
+            yield from (key + row for row in _joint_rows(sample))
+
+
+def _joint_rows(sample: SkeletonSample) -> Iterator[tuple[object, ...]]:
+    points, states = sample.positions_in_sensor.tolist(), sample.state.tolist()
+    for name, (x, y, z), state in zip(JOINTS, points, states, strict=True):
+        if state:
+            yield name, f"{x:.4f}", f"{y:.4f}", f"{z:.4f}", state
+
+
+def _truth_rows(truth: TruthStream) -> Iterator[tuple[object, ...]]:
+    for t_s, points in zip(truth.t_s.tolist(), truth.positions.tolist(), strict=True):
+        for name, (x, y, z) in zip(truth.joints, points, strict=True):
+            if x == x:  # NaN: no truth for this joint here
+                yield f"{t_s:.6f}", name, f"{x:.4f}", f"{y:.4f}", f"{z:.4f}"
+
+
+def _write_table(path: Path, columns: tuple[str, ...], rows: Iterable[tuple[object, ...]]) -> None:
+    text = io.StringIO(newline="")
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(columns)
+    writer.writerows(rows)
+    path.write_bytes(gzip.compress(text.getvalue().encode(), mtime=0))
+
+
+# ---------------------------------------------------------------- log
+
+
+def _write_log(recording: Recording, path: Path) -> None:
+    primary = next((stream.sensor for stream in recording.skeleton_streams if stream.primary), "")
+    trouble = msgspec.json.encode(recording.events).decode()
+    about = LogAbout(recording.name, recording.about, recording.healthy_side, recording.origin, primary, trouble)
+    with LogWriter(path, about) as log:
+        for sample in _in_time(recording.skeleton_streams):
+            log.sample(sample)
+        if recording.truth is not None:
+            for t_s, points in zip(recording.truth.t_s.tolist(), recording.truth.positions, strict=True):
+                log.truth(t_s, recording.truth.clock, recording.truth.joints, points)
+
+
+def _in_time(streams: Iterable[SkeletonStream]) -> list[SkeletonSample]:
+    return sorted((sample for stream in streams for sample in stream.samples), key=lambda sample: sample.t_received_s)
