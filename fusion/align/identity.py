@@ -1,0 +1,143 @@
+"""Which body of each sensor is the patient: one person is followed, everybody else is refused.
+
+Body numbers say nothing across sensors, change when somebody is lost, and are reused. So a number is believed only
+while the body that wears it moves as a person can; otherwise the place decides: nearest to where the patient was, or,
+as long as nobody is known, nearest to the lens. A person's choice goes before everything.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from fusion.messages import Floats, SkeletonSample, States
+from fusion.skeleton import INDEX
+
+TRUNK = [INDEX[name] for name in ("SpineBase", "SpineMid", "SpineShoulder", "Neck", "ShoulderLeft", "ShoulderRight")]
+ALIVE_S = 0.5
+"""A followed body that was not seen for this long may be replaced."""
+LOOK_AROUND_S = 0.1
+"""A sensor that starts is watched this long before its nearest body is chosen."""
+REACH_M, SPEED_M_S, FURTHEST_M = 0.5, 2.0, 1.5
+"""How far from where the patient was somebody may be and still be the patient; grows with time up to the furthest."""
+UNKNOWN_AFTER_S = 4.0
+"""After so long without the patient, the nearest to where they were is taken at any distance."""
+JUMP_M, JUMP_SPEED_M_S = 0.6, 6.0
+"""A body that moves further than this from one frame to the next is another person with the same number."""
+
+
+@dataclass(frozen=True, slots=True)
+class Expected:
+    """Where the patient's trunk should be in a sensor's own frame, and for how long nobody has confirmed it."""
+
+    centre_in_sensor: Floats  # (3,)
+    age_s: float
+
+    def admits(self, centre: Floats) -> bool:
+        """Whether somebody at `centre` (3,) may be the patient."""
+        if self.age_s > UNKNOWN_AFTER_S:
+            return True
+        reach = min(REACH_M + SPEED_M_S * self.age_s, FURTHEST_M)
+        return bool(np.linalg.norm(centre - self.centre_in_sensor) < reach)
+
+
+@dataclass(frozen=True, slots=True)
+class Sighting:
+    """A body as it was last seen by one sensor."""
+
+    body: str
+    t_s: float
+    centre_in_sensor: Floats  # (3,)
+
+
+@dataclass(slots=True)
+class _View:
+    """One sensor's bodies and which of them is followed."""
+
+    since_s: float
+    seen: dict[str, Sighting] = field(default_factory=dict)
+    followed: str | None = None
+
+
+def trunk_centre(positions: Floats, state: States) -> Floats:
+    """Median of the trunk's seen joints (3,), of all joints where the trunk is not seen; NaN when nothing is."""
+    for joints in (TRUNK, list(range(len(state)))):
+        seen = positions[joints][state[joints] > 0]
+        seen = seen[np.isfinite(seen).all(axis=1)]
+        if len(seen):
+            centre: Floats = np.sort(seen, axis=0)[len(seen) // 2]
+            return centre
+    return np.full(3, np.nan)
+
+
+class PatientFinder:
+    """Follows one person in every sensor."""
+
+    def __init__(self) -> None:
+        self._views: dict[str, _View] = {}
+
+    def follow(self, sensor: str, body: str) -> None:
+        """A person's choice: this body is the patient. The other sensors find the same person by place."""
+        for view in self._views.values():
+            view.followed = None
+        self._views.setdefault(sensor, _View(-np.inf)).followed = body
+
+    def prefer(self, sensor: str, body: str) -> None:
+        """Follow this body in one sensor, because it moves as the patient does in the reference."""
+        if sensor in self._views:
+            self._views[sensor].followed = body
+
+    def followed(self, sensor: str) -> str | None:
+        """The body followed in a sensor."""
+        view = self._views.get(sensor)
+        return view.followed if view else None
+
+    def is_patient(self, sample: SkeletonSample, t_s: float, expected: Callable[[], Expected | None]) -> bool:
+        """Take one body of one frame; True when it is the patient's.
+
+        Args:
+            sample: the body.
+            t_s: its time on the receive clock.
+            expected: tells where the patient should be, None while that is not known in this sensor's frame; asked
+                only where somebody has to be chosen.
+        """
+        centre = trunk_centre(sample.positions_in_sensor, sample.state)
+        if not np.isfinite(centre).all():
+            return False
+        view = self._views.setdefault(sample.sensor, _View(t_s))
+        before = view.seen.get(sample.body)
+        view.seen[sample.body] = Sighting(sample.body, t_s, centre)
+        if before is not None and _jumped(before, view.seen[sample.body]) and view.followed == sample.body:
+            view.followed = None
+        if view.followed is None or _gone(view, t_s):
+            view.followed = _choose(view, t_s, expected()) or view.followed
+        return view.followed == sample.body
+
+
+def _jumped(before: Sighting, now: Sighting) -> bool:
+    """Whether a number went to somebody else; after a silence anybody may have walked anywhere."""
+    dt = now.t_s - before.t_s
+    moved = float(np.linalg.norm(now.centre_in_sensor - before.centre_in_sensor))
+    return dt < ALIVE_S and moved > JUMP_M + JUMP_SPEED_M_S * max(dt, 0.0)
+
+
+def _gone(view: _View, t_s: float) -> bool:
+    last = view.seen.get(view.followed or "")
+    return last is not None and t_s - last.t_s > ALIVE_S
+
+
+def _choose(view: _View, t_s: float, expected: Expected | None) -> str | None:
+    """The visible body that is most likely the patient; None while nobody may be."""
+    visible = [seen for seen in view.seen.values() if t_s - seen.t_s < 3 * LOOK_AROUND_S]
+    if expected is not None:
+        visible = [seen for seen in visible if expected.admits(seen.centre_in_sensor)]
+        origin = expected.centre_in_sensor
+    else:
+        origin = np.zeros(3)
+        if t_s - view.since_s < LOOK_AROUND_S:
+            return None
+    if not visible:
+        return None
+    return min(visible, key=lambda seen: float(np.linalg.norm(seen.centre_in_sensor - origin))).body

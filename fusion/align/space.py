@@ -1,0 +1,196 @@
+"""A sensor's mounting from paired joints: exact at any angle, robust, and recursive through running sums.
+
+The rotation solves Wahba's problem, ``min Σ w |r - R s - T|²``, in closed form (Kabsch 1976; Umeyama, IEEE PAMI 13(4),
+1991): with H = Σ w (r - r̄)(s - s̄)', R is the rotation nearest to H and T = r̄ - R s̄. Only sums enter, so they can
+be added up frame by frame, forgotten, and joined in any order. Robustness is Tukey's biweight, its width annealed from
+wide to narrow so that the start does not matter (graduated non-convexity).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from fusion.align.track import Pairs
+from fusion.geometry import nearest_rotation
+from fusion.messages import Floats
+from fusion.skeleton import SIDES_SWAPPED
+
+TUKEY_WIDTHS = 4.8
+"""Cut-off in median distances: 4.685 standard deviations keep 95 % efficiency on a normal error."""
+NARROWEST_M = 0.01
+"""The cut-off never gets narrower than a centimetre, so that clean data are not cut to nothing."""
+POINTS_PER_INDEPENDENT = 100.0
+"""A skeleton's joints err together and for a second or so: this many points count as one when a deviation is stated."""
+
+
+@dataclass(frozen=True, slots=True)
+class Moments:
+    """Weighted sums of paired points: all that the closed form needs."""
+
+    weight: float
+    mean_reference: Floats  # (3,)
+    mean_sensor: Floats  # (3,)
+    cross: Floats  # (3, 3) Σ w (r - r̄)(s - s̄)'
+    scatter: Floats  # (3, 3) Σ w (s - s̄)(s - s̄)'
+    square: float
+    """Σ w |r - r̄|²."""
+
+    @staticmethod
+    def nothing() -> Moments:
+        """The sums over no point."""
+        return Moments(0.0, np.zeros(3), np.zeros(3), np.zeros((3, 3)), np.zeros((3, 3)), 0.0)
+
+    @staticmethod
+    def of(reference: Floats, sensor: Floats, weight: Floats) -> Moments:
+        """Sums over points (N, 3), (N, 3) with weights (N,)."""
+        total = float(weight.sum())
+        if total <= 0.0:
+            return Moments.nothing()
+        mean_reference, mean_sensor = weight @ reference / total, weight @ sensor / total
+        r, s = reference - mean_reference, sensor - mean_sensor
+        weighted = weight[:, None] * s
+        square = float(np.einsum("n,ni,ni->", weight, r, r))
+        return Moments(total, mean_reference, mean_sensor, r.T @ weighted, s.T @ weighted, square)
+
+    def joined(self, other: Moments) -> Moments:
+        """The sums over both sets of points (Chan et al. 1979); the order does not matter."""
+        total = self.weight + other.weight
+        if total <= 0.0:
+            return self
+        share = other.weight / total
+        d_reference, d_sensor = other.mean_reference - self.mean_reference, other.mean_sensor - self.mean_sensor
+        lever = self.weight * share
+        return Moments(
+            total,
+            self.mean_reference + share * d_reference,
+            self.mean_sensor + share * d_sensor,
+            self.cross + other.cross + lever * np.outer(d_reference, d_sensor),
+            self.scatter + other.scatter + lever * np.outer(d_sensor, d_sensor),
+            self.square + other.square + lever * float(d_reference @ d_reference),
+        )
+
+    def faded(self, factor: float) -> Moments:
+        """The same sums with every weight multiplied by `factor`."""
+        return Moments(
+            self.weight * factor,
+            self.mean_reference,
+            self.mean_sensor,
+            self.cross * factor,
+            self.scatter * factor,
+            self.square * factor,
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Mounting:
+    """A rotation and a translation with their deviations: ``p_reference = R p_sensor + T``."""
+
+    rotation: Floats  # (3, 3) sensor to reference
+    translation_m: Floats  # (3,)
+    rotation_std_rad: float
+    position_std_m: float
+
+    def errors(self, pairs: Pairs) -> Floats:
+        """Reference minus aligned joint (N, J, 3), m."""
+        errors: Floats = pairs.reference - (pairs.sensor @ self.rotation.T + self.translation_m)
+        return errors
+
+
+def mounting(moments: Moments) -> Mounting:
+    """The mounting that fits the sums best, and how well they determine it."""
+    rotation = nearest_rotation(moments.cross)
+    translation = moments.mean_reference - rotation @ moments.mean_sensor
+    return Mounting(rotation, translation, *_deviations(moments, rotation))
+
+
+def _deviations(moments: Moments, rotation: Floats) -> tuple[float, float]:
+    """Standard deviations of rotation (rad) and of the body's middle (m), from the residual and the spread.
+
+    A small turn ε moves a point by ε × u, so its information is Σ w (|u|² 1 - u u') / σ² with u = R (s - s̄).
+    """
+    square = moments.square + np.trace(moments.scatter) - 2 * np.trace(rotation.T @ moments.cross)
+    variance = max(float(square), 0.0) / (3 * max(moments.weight, 1e-9)) * POINTS_PER_INDEPENDENT
+    lever = np.linalg.eigvalsh(np.trace(moments.scatter) * np.eye(3) - moments.scatter)
+    rotation_variance = float((variance / np.maximum(lever, 1e-9)).sum())
+    return float(np.sqrt(rotation_variance)), float(np.sqrt(3 * variance / max(moments.weight, 1e-9)))
+
+
+@dataclass(frozen=True, slots=True)
+class RobustFit:
+    """A mounting, the weight that each joint kept, and what is left over."""
+
+    mounting: Mounting
+    weight: Floats  # (N, J)
+    residual_m: float
+    """Median distance over all weighted joints."""
+    cutoff_m: float
+    swapped: Floats  # (N,) bool: frames whose left and right were found exchanged
+
+    def moments(self, pairs: Pairs) -> Moments:
+        """The sums of the pairs as weighted in this fit, to be settled into a recursion."""
+        return Moments.of(pairs.reference.reshape(-1, 3), pairs.sensor.reshape(-1, 3), self.weight.ravel())
+
+
+def fit_robustly(
+    pairs: Pairs, settled: Moments | None = None, start: Mounting | None = None, allow_swaps: bool = True
+) -> RobustFit:
+    """Fit a mounting to pairs and to sums settled before.
+
+    Frames whose left and right are exchanged (they fit far better with `SIDES_SWAPPED`) take no part; lost and
+    wandering joints are weighed down.
+
+    Args:
+        pairs: at least four weighted joints in all.
+        settled: sums of earlier frames, already weighted.
+        start: where to start; the plain least-squares fit when None.
+        allow_swaps: whether to look for frames with exchanged sides and leave them out.
+    """
+    base = settled or Moments.nothing()
+    first = start or mounting(base.joined(_moments(pairs, pairs.weight)))
+    fit = _anneal(pairs, pairs.weight, base, first)
+    swapped = swapped_frames(pairs, fit.mounting)
+    if not (allow_swaps and swapped.any()):
+        return fit
+    again = _anneal(pairs, np.where(swapped[:, None], 0.0, pairs.weight), base, fit.mounting)
+    return RobustFit(again.mounting, again.weight, again.residual_m, again.cutoff_m, swapped)
+
+
+def swapped_frames(pairs: Pairs, under: Mounting) -> Floats:
+    """Frames (N,) bool that fit far better once the sensor's left and right are exchanged."""
+    exchanged = Pairs(pairs.reference, pairs.sensor[:, SIDES_SWAPPED], pairs.velocity, pairs.weight)
+    both = np.minimum(pairs.weight, pairs.weight[:, SIDES_SWAPPED]) * (np.arange(len(SIDES_SWAPPED)) != SIDES_SWAPPED)
+    total = np.maximum(both.sum(axis=1), 1e-9)
+    plain = (both * np.linalg.norm(under.errors(pairs), axis=2)).sum(axis=1) / total
+    crossed = (both * np.linalg.norm(under.errors(exchanged), axis=2)).sum(axis=1) / total
+    swapped: Floats = (crossed < 0.6 * plain) & (both > 0).any(axis=1)
+    return swapped
+
+
+def _moments(pairs: Pairs, weight: Floats) -> Moments:
+    return Moments.of(pairs.reference.reshape(-1, 3), pairs.sensor.reshape(-1, 3), weight.ravel())
+
+
+def _anneal(pairs: Pairs, weight: Floats, base: Moments, start: Mounting) -> RobustFit:
+    """Iterate Tukey weights and the closed form, halving the cut-off down to its final width."""
+    used = weight.ravel() > 0
+    r, s = pairs.reference.reshape(-1, 3)[used], pairs.sensor.reshape(-1, 3)[used]
+    given = weight.ravel()[used]
+    now, cutoff, kept, median = start, np.inf, given, 0.0
+    for _ in range(40):
+        distance = np.linalg.norm(r - (s @ now.rotation.T + now.translation_m), axis=1)
+        median = float(np.median(distance)) if distance.size else 0.0
+        wanted = max(TUKEY_WIDTHS * median, NARROWEST_M)
+        cutoff = max(wanted, cutoff / 2 if np.isfinite(cutoff) else 2 * float(distance.max(initial=wanted)))
+        kept = given * np.clip(1 - (distance / cutoff) ** 2, 0, None) ** 2
+        before, now = now, mounting(base.joined(Moments.of(r, s, kept)))
+        if cutoff <= 1.01 * wanted and _same(before, now):
+            break
+    full = np.zeros(weight.size)
+    full[used] = kept
+    return RobustFit(now, full.reshape(weight.shape), median, cutoff, np.zeros(len(weight), dtype=bool))
+
+
+def _same(a: Mounting, b: Mounting) -> bool:
+    return bool(np.abs(a.rotation - b.rotation).max() < 1e-6 and np.abs(a.translation_m - b.translation_m).max() < 1e-6)

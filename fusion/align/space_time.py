@@ -1,0 +1,122 @@
+"""Mounting and clock offset of a sensor together: each is only as good as the other.
+
+Given the mounting, an offset δ too small leaves e = δ v between the joints, v being their velocity; least squares over
+all joints gives δ = Σ w e·v / Σ w v·v (Gauss-Newton). Given the offset, `fusion.align.space` gives the mounting. A few
+rounds of both settle.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from fusion.align.alignment import SensorAlignment
+from fusion.align.space import POINTS_PER_INDEPENDENT, Mounting, RobustFit, fit_robustly
+from fusion.align.timeline import OffsetCandidate, offset_candidates
+from fusion.align.track import BodyTrack, Pairs, pair
+
+OFFSET_CUTOFF_M = 0.25
+"""Tukey's width where the offset is fitted: fixed and wide, as it is the moving joints that tell, and they err most."""
+OFFSET_NOISE_M = 0.02
+"""No pair of sensors agrees better than this on a moving joint."""
+CORRELATION_STD_S = 0.03
+"""How far the best correlation of speeds is usually off; it steadies the fit where there was little motion."""
+SETTLED_S = 2e-4
+MOST_FRAMES = 1200
+"""A long recording is thinned to this many frames, evenly."""
+FEWEST_FRAMES = 15
+
+
+@dataclass(frozen=True, slots=True)
+class OffsetStep:
+    """What the pairs say of the remaining offset."""
+
+    change_s: float
+    information: float
+    """1/s²: inverse variance of the step, from how much motion there was to tell by."""
+
+    def steadied(self, towards_s: float, std_s: float) -> float:
+        """The step once a prior belief of that deviation, `towards_s` away, has its share."""
+        prior = 1.0 / std_s**2
+        return (self.information * self.change_s + prior * towards_s) / (self.information + prior)
+
+
+def offset_step(pairs: Pairs, under: Mounting, weight: np.ndarray) -> OffsetStep:
+    """The offset's Gauss-Newton step under a mounting.
+
+    Args:
+        pairs: joints at the offset reached so far.
+        under: the mounting.
+        weight: (N, J), 0 for frames that were found swapped.
+    """
+    errors = under.errors(pairs)
+    velocity = pairs.velocity @ under.rotation.T
+    distance = np.linalg.norm(errors, axis=2)
+    kept = weight * np.clip(1 - (distance / OFFSET_CUTOFF_M) ** 2, 0, None) ** 2
+    information = float(np.einsum("nj,nji,nji->", kept, velocity, velocity))
+    change = float(np.einsum("nj,nji,nji->", kept, errors, velocity)) / max(information, 1e-9)
+    variance = float(np.einsum("nj,nj->", kept, distance**2)) / (3 * max(float(kept.sum()), 1e-9))
+    information /= max(variance, OFFSET_NOISE_M**2) * POINTS_PER_INDEPENDENT
+    return OffsetStep(change, information)
+
+
+def fit_space_time(
+    reference: BodyTrack, sensor: BodyTrack, longest_s: float = np.inf, candidates: int = 5
+) -> SensorAlignment | None:
+    """Mounting and clock offset of a sensor from everything two tracks hold; None where they never saw a body together.
+
+    The offset is sought among the best correlations of the joints' speeds (for somebody who keeps still: the clocks as
+    they are); the one whose joints then agree best is refined.
+
+    Args:
+        reference: the patient as the reference sensor saw them, on its clock.
+        sensor: the same person as the other sensor saw them, on its own clock.
+        longest_s: the largest absolute offset to consider.
+        candidates: how many offsets to try.
+    """
+    if min(len(reference.t_s), len(sensor.t_s)) < FEWEST_FRAMES:
+        return None
+    thin = reference.thinned(MOST_FRAMES)
+    starts = offset_candidates(reference, sensor, longest_s, candidates) or (OffsetCandidate(0.0, 1.0),)
+    few = thin.thinned(MOST_FRAMES // 4)
+    best = min(starts, key=lambda start: _unlikeness(refine(few, sensor, start.offset_s, rounds=2), start))
+    return refine(thin, sensor, best.offset_s, rounds=10)
+
+
+def _unlikeness(found: SensorAlignment | None, start: OffsetCandidate) -> float:
+    """How badly joints and speeds agree; fewer common frames make a small residual less telling."""
+    return np.inf if found is None else found.residual_m / (start.correlation * float(np.sqrt(found.frames)))
+
+
+def refine(
+    reference: BodyTrack, sensor: BodyTrack, offset_s: float, rounds: int, start: Mounting | None = None
+) -> SensorAlignment | None:
+    """Settle mounting and offset near a first offset; None where the tracks have too few frames in common."""
+    start_s = offset_s
+    for _ in range(rounds):
+        pairs = pair(reference, sensor, offset_s)
+        if pairs.frames < FEWEST_FRAMES:
+            return None
+        fit = fit_robustly(pairs, start=start)
+        start = fit.mounting
+        step = offset_step(pairs, fit.mounting, np.where(fit.swapped[:, None], 0.0, pairs.weight))
+        change_s = step.steadied(start_s - offset_s, CORRELATION_STD_S)
+        offset_s += change_s
+        if abs(change_s) < SETTLED_S:
+            break
+    return alignment_of(fit, offset_s, pairs.frames)
+
+
+def alignment_of(fit: RobustFit, offset_s: float, frames: int) -> SensorAlignment:
+    """The value that others see of a fit."""
+    found = fit.mounting
+    return SensorAlignment(
+        found.rotation,
+        found.translation_m,
+        offset_s,
+        fit.residual_m,
+        frames,
+        found.rotation_std_rad,
+        found.position_std_m,
+    )

@@ -1,0 +1,130 @@
+"""How far one sensor's clock is from another's: from receive times, or from how the joints move.
+
+Sign: ``t_reference = t_sensor - offset``.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.fft import irfft, next_fast_len, rfft
+from scipy.signal import find_peaks
+
+from fusion.align.track import VELOCITY_SPAN_S, BodyTrack
+from fusion.messages import Floats
+from fusion.skeleton import TrackingState
+
+GRID_HZ = 60.0
+FASTEST_M_S = 3.0
+"""Faster than this is a wandering joint, not a limb in therapy; speeds are cut here."""
+LEAST_COMMON_SHARE = 0.5
+"""A lag counts only where this share of the best possible overlap is left: short overlaps correlate by chance."""
+MINIMUM_WINDOW_S = 30.0
+"""Receive minima are taken over one to two of these, so that a drifting clock is followed."""
+
+
+@dataclass(frozen=True, slots=True)
+class OffsetCandidate:
+    """A clock offset at which the two speed signals agree, and how well (correlation, at most 1)."""
+
+    offset_s: float
+    correlation: float
+
+
+def offset_candidates(
+    reference: BodyTrack, sensor: BodyTrack, longest_s: float = np.inf, count: int = 5
+) -> tuple[OffsetCandidate, ...]:
+    """Offsets at which the joints' speeds correlate best, best first.
+
+    Speeds do not depend on the mounting, so this needs no alignment in space. Every joint is its own channel; instants
+    at which a joint is not seen take no part. The peak is found to a part of the grid by a parabola.
+
+    Args:
+        reference: the reference sensor's body.
+        sensor: the same person in the other sensor.
+        longest_s: the largest absolute offset to consider.
+        count: how many to give.
+    """
+    ours, ours_known = _speeds(reference)
+    theirs, theirs_known = _speeds(sensor)
+    correlation, lags = _correlation(ours, ours_known, theirs, theirs_known)
+    offsets = lags / GRID_HZ + sensor.t_s[0] - reference.t_s[0]
+    correlation = np.where(np.abs(offsets) <= longest_s, correlation, -1.0)
+    peaks, _ = find_peaks(np.concatenate([[-1.0], correlation, [-1.0]]), distance=int(0.15 * GRID_HZ))
+    best = sorted(peaks - 1, key=lambda k: -correlation[k])[:count]
+    return tuple(
+        OffsetCandidate(float(offsets[k] + _vertex(correlation, int(k)) / GRID_HZ), float(correlation[k]))
+        for k in best
+        if correlation[k] > 0
+    )
+
+
+def _speeds(track: BodyTrack) -> tuple[Floats, Floats]:
+    """Speeds (M, J) on a steady grid with each joint's mean taken off, and where they are known."""
+    grid = np.arange(track.t_s[0], track.t_s[-1], 1.0 / GRID_HZ)
+    ahead, seen_ahead = track.at(grid + VELOCITY_SPAN_S)
+    behind, seen_behind = track.at(grid - VELOCITY_SPAN_S)
+    known = np.minimum(seen_ahead, seen_behind) == TrackingState.TRACKED
+    speeds = np.minimum(np.linalg.norm(ahead - behind, axis=2) / (2 * VELOCITY_SPAN_S), FASTEST_M_S)
+    mean = np.where(known, speeds, 0.0).sum(axis=0) / np.maximum(known.sum(axis=0), 1)
+    return np.where(known, speeds - mean, 0.0), known.astype(np.float64)
+
+
+def _correlation(a: Floats, a_known: Floats, b: Floats, b_known: Floats) -> tuple[Floats, Floats]:
+    """Normalised correlation over every lag of b behind a (in grid steps, ascending), all joints summed."""
+    size = next_fast_len(len(a) + len(b))
+
+    def lagged(x: Floats, y: Floats) -> Floats:
+        spectrum = np.conj(rfft(x, size, axis=0)) * rfft(y, size, axis=0)
+        summed: Floats = irfft(spectrum.sum(axis=1), size)
+        return np.concatenate([summed[size - len(a) + 1 :], summed[: len(b)]])
+
+    common = lagged(a_known, b_known)
+    energy = np.sqrt(np.maximum(lagged(a**2, b_known) * lagged(a_known, b**2), 1e-12))
+    share = np.clip(common / max(float(common.max(initial=0.0)), 1.0), 0, 1)
+    correlation = np.where(share > LEAST_COMMON_SHARE, lagged(a, b) / energy * np.sqrt(share), -1.0)
+    return correlation, np.arange(-len(a) + 1.0, len(b))
+
+
+def _vertex(values: Floats, k: int) -> float:
+    """Where the parabola through three neighbours peaks, in grid steps from k."""
+    if not 0 < k < len(values) - 1:
+        return 0.0
+    left, middle, right = values[k - 1 : k + 2]
+    bend = left - 2 * middle + right
+    return float(0.5 * (left - right) / bend) if bend < 0 and min(left, right) > -1 else 0.0
+
+
+class ReceiveClock:
+    """Puts a sender's own clock onto the receive clock: the least delay ever seen is taken for no delay.
+
+    Delays only lengthen, so min(receive - sent) approaches the clocks' difference from above. Where the sender has no
+    clock both times are equal and nothing changes.
+    """
+
+    def __init__(self) -> None:
+        self._older_s, self._newer_s = np.inf, np.inf
+        self._window_ends_s = -np.inf
+        self._delays: deque[float] = deque(maxlen=90)
+
+    def on_receive_clock(self, t_s: float, t_received_s: float) -> float:
+        """Take a frame's two times; give its time on the receive clock."""
+        difference = t_received_s - t_s
+        if t_received_s > self._window_ends_s:
+            self._older_s, self._newer_s = self._newer_s, difference
+            self._window_ends_s = t_received_s + MINIMUM_WINDOW_S
+        self._newer_s = min(self._newer_s, difference)
+        self._delays.append(difference - self.difference_s)
+        return t_s + self.difference_s
+
+    @property
+    def difference_s(self) -> float:
+        """Receive clock minus sender's clock."""
+        return min(self._older_s, self._newer_s)
+
+    @property
+    def delay_s(self) -> float:
+        """Median delay of the last frames beyond the least delay seen."""
+        return float(np.median(self._delays)) if self._delays else 0.0

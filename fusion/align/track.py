@@ -1,0 +1,104 @@
+"""One body seen by one sensor over time, and the pairs that two such tracks make at common instants."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from fusion.messages import Floats, SkeletonSample, States
+
+LONGEST_BRIDGE_S = 0.11
+"""Interpolate over at most two missed frames of a 30 Hz sensor."""
+VELOCITY_SPAN_S = 0.05
+"""Half the span of the central difference that gives a joint's velocity."""
+STATE_WEIGHT = np.array([0.0, 1.0 / 16.0, 1.0])
+"""Lost, inferred, tracked: inverse variances, an inferred joint being about four times as far off."""
+
+
+@dataclass(frozen=True, slots=True)
+class BodyTrack:
+    """Frames of one body in time order."""
+
+    t_s: Floats  # (N,)
+    positions: Floats  # (N, J, 3) m, in the sensor's frame
+    state: States  # (N, J)
+
+    @staticmethod
+    def of(samples: Iterable[SkeletonSample]) -> BodyTrack:
+        """Stack samples of one body, on the sensor's own clock."""
+        ordered = sorted(samples, key=lambda sample: sample.t_s)
+        return BodyTrack(
+            np.array([sample.t_s for sample in ordered]),
+            np.array([sample.positions_in_sensor for sample in ordered]),
+            np.array([sample.state for sample in ordered]),
+        )
+
+    def part(self, which: slice) -> BodyTrack:
+        """The chosen frames."""
+        return BodyTrack(self.t_s[which], self.positions[which], self.state[which])
+
+    def thinned(self, most: int) -> BodyTrack:
+        """At most so many frames, evenly."""
+        return self.part(slice(None, None, max(1, -(-len(self.t_s) // most))))
+
+    def since(self, t_s: float) -> BodyTrack:
+        """The frames after an instant."""
+        return self.part(slice(int(np.searchsorted(self.t_s, t_s, side="right")), None))
+
+    def at(self, t_s: Floats) -> tuple[Floats, States]:
+        """Positions (M, J, 3) and states (M, J), linear between the two frames around each instant [Du2016 §2.1].
+
+        State 0 (and NaN) where there is no frame on both sides near enough, or the joint is lost in either.
+        """
+        after = np.clip(np.searchsorted(self.t_s, t_s), 1, len(self.t_s) - 1)
+        before = after - 1
+        span = self.t_s[after] - self.t_s[before]
+        share = (t_s - self.t_s[before]) / np.where(span > 0, span, 1.0)
+        bridged = (share >= 0) & (share <= 1) & (span > 0) & (span < LONGEST_BRIDGE_S)
+        state = np.where(bridged[:, None], np.minimum(self.state[before], self.state[after]), 0).astype(np.uint8)
+        share = share[:, None, None]
+        positions = (1 - share) * self.positions[before] + share * self.positions[after]
+        return np.where((state > 0)[..., None], positions, np.nan), state
+
+    def velocities_at(self, t_s: Floats) -> Floats:
+        """Central differences (M, J, 3) m/s; NaN where a joint is not seen around the instant."""
+        ahead, _ = self.at(t_s + VELOCITY_SPAN_S)
+        behind, _ = self.at(t_s - VELOCITY_SPAN_S)
+        velocities: Floats = (ahead - behind) / (2 * VELOCITY_SPAN_S)
+        return velocities
+
+
+@dataclass(frozen=True, slots=True)
+class Pairs:
+    """The same joints at the same instants as the reference and another sensor saw them."""
+
+    reference: Floats  # (N, J, 3) m
+    sensor: Floats  # (N, J, 3) m
+    velocity: Floats  # (N, J, 3) m/s in the sensor's frame; 0 where unknown
+    weight: Floats  # (N, J) 0 where either does not see the joint (positions there are 0)
+
+    def __len__(self) -> int:
+        return len(self.weight)
+
+    @property
+    def frames(self) -> int:
+        """Frames with at least four common joints, the fewest that determine a mounting well [Du2016 §2.2]."""
+        return int(np.count_nonzero((self.weight > 0).sum(axis=1) >= 4))
+
+
+def pair(reference: BodyTrack, sensor: BodyTrack, offset_s: float) -> Pairs:
+    """Bring the sensor's joints to the reference's instants, given t_reference = t_sensor - offset."""
+    t_s = reference.t_s + offset_s
+    positions, state = sensor.at(t_s)
+    velocity = sensor.velocities_at(t_s)
+    weight = STATE_WEIGHT[reference.state] * STATE_WEIGHT[state]
+    weight = np.where(np.isfinite(reference.positions).all(axis=2) & np.isfinite(positions).all(axis=2), weight, 0.0)
+    seen = (weight > 0)[..., None]
+    return Pairs(
+        np.where(seen, reference.positions, 0.0),
+        np.where(seen, positions, 0.0),
+        np.where(seen, np.nan_to_num(velocity), 0.0),
+        weight,
+    )

@@ -1,0 +1,184 @@
+"""What is known live of one sensor: its clock, its recent frames, its alignment, and what a therapist should hear."""
+
+from __future__ import annotations
+
+from collections import Counter, deque
+
+import numpy as np
+
+from fusion.align.alignment import SensorAlignment
+from fusion.align.learner import FEWEST_FRAMES, WINDOW_S, AlignmentLearner
+from fusion.align.plausible import Fault, feet_fault, unit_fault
+from fusion.align.timeline import ReceiveClock
+from fusion.align.track import BodyTrack
+from fusion.messages import SensorQuality, SkeletonSample
+from fusion.skeleton import TrackingState
+
+RATE_OVER_S = 2.0
+SILENT_AFTER_S = 0.5
+OTHERS_CLEARLY_WORSE = 1.3
+"""With several people in view, the body that is followed must fit the reference's this much better than any other."""
+RECENT_MENDS = 60
+OFTEN = 0.5
+
+Frames = deque[tuple[float, SkeletonSample]]
+
+
+class SensorWatch:
+    """One sensor as it is heard live.
+
+    Args:
+        sensor: its name.
+        given: its alignment where that is known beforehand; then nothing is learnt and its own clock counts.
+    """
+
+    def __init__(self, sensor: str, given: SensorAlignment | None = None) -> None:
+        self.sensor = sensor
+        self.clock = ReceiveClock()
+        self.fault: Fault | None = None
+        self.refusals: Counter[str] = Counter()
+        """Frames and joints not used so far, by reason."""
+        self._given = given
+        self._frames: dict[str, Frames] = {}
+        self._times: deque[float] = deque(maxlen=120)
+        self._learners: dict[str, AlignmentLearner] = {}
+        self._chosen: str | None = None
+        self._mended: deque[bool] = deque(maxlen=RECENT_MENDS)
+        self._last: SkeletonSample | None = None
+        self._refused_joints = 0
+
+    # --- what comes in
+
+    def receive(self, sample: SkeletonSample) -> float:
+        """Take any body's sample; its time on the common clock."""
+        if self._given is not None:
+            t_s = sample.t_s
+        else:
+            t_s = self.clock.on_receive_clock(sample.t_s, sample.t_received_s)
+            self._remember(sample, t_s)
+        if not self._times or t_s > self._times[-1]:
+            self._times.append(t_s)
+        return t_s
+
+    def note(self, sample: SkeletonSample, refused_joints: int, mended: bool) -> None:
+        """Remember what became of the patient's sample."""
+        self._last, self._refused_joints = sample, refused_joints
+        self._mended.append(mended)
+
+    def _remember(self, sample: SkeletonSample, t_s: float) -> None:
+        frames = self._frames.setdefault(sample.body, deque())
+        if not frames or t_s > frames[-1][0]:
+            frames.append((t_s, sample))
+        for body in list(self._frames):
+            kept = self._frames[body]
+            while kept and kept[0][0] < t_s - WINDOW_S:
+                kept.popleft()
+            if not kept:
+                del self._frames[body]
+
+    def track(self, body: str | None) -> BodyTrack | None:
+        """The last seconds of a body on the receive clock; None where there are too few."""
+        frames = self._frames.get(body or "")
+        if frames is None or len(frames) < FEWEST_FRAMES:
+            return None
+        return BodyTrack(
+            np.array([t_s for t_s, _ in frames]),
+            np.array([sample.positions_in_sensor for _, sample in frames]),
+            np.array([sample.state for _, sample in frames]),
+        )
+
+    def seen_for_s(self, body: str | None) -> float:
+        """How long a body has been in view, within the window."""
+        frames = self._frames.get(body or "")
+        return frames[-1][0] - frames[0][0] if frames else 0.0
+
+    # --- what is learnt
+
+    @property
+    def alignment(self) -> SensorAlignment | None:
+        """Where the sensor stands; None until that is well determined."""
+        if self._given is not None or self.fault is not None:
+            return self._given
+        learner = self._learners.get(self._chosen or "")
+        return learner.alignment if learner else None
+
+    def check(self, body: str | None) -> None:
+        """Look whether this sender can be right at all."""
+        track = self.track(body)
+        if track is not None:
+            self.fault = unit_fault(track.positions[-FEWEST_FRAMES:], track.state[-FEWEST_FRAMES:]) or feet_fault(track)
+
+    def learn(self, reference: BodyTrack, followed: str | None) -> str | None:
+        """Learn from the reference's last seconds; the body that is the reference's, where that was found."""
+        bodies = [followed] if self.alignment is not None and followed else list(self._frames)
+        for body in bodies:
+            track = self.track(body)
+            if track is not None:
+                self._learners.setdefault(body, AlignmentLearner()).learn(reference, track)
+        self._chosen = self._best(followed)
+        faults = [learner.fault for learner in self._learners.values() if learner.fault]
+        if self.alignment is None and faults:
+            self.fault = faults[0]
+        return self._chosen
+
+    def forget(self) -> None:
+        """Start learning anew, as when the reference changes."""
+        self._learners.clear()
+        self._chosen = None
+
+    def _best(self, followed: str | None) -> str | None:
+        """The body whose alignment is good, and clearly better than any other body's."""
+        able = {b: a.residual_m for b, learner in self._learners.items() if (a := learner.alignment) is not None}
+        if not able:
+            return self._chosen
+        best = min(able, key=lambda body: able[body])
+        if self._chosen in able or len(able) == 1:
+            kept = self._chosen if self._chosen in able else best
+            return followed if followed in able and self._chosen in able else kept
+        second = min(residual for body, residual in able.items() if body != best)
+        return best if second > OTHERS_CLEARLY_WORSE * able[best] else None
+
+    # --- what is told
+
+    def quality(self, now_s: float, reference: SensorWatch | None) -> SensorQuality:
+        """What a therapist wants to know, at `now_s` on the common clock."""
+        found = self.alignment
+        is_reference = reference is self
+        last = self._last
+        return SensorQuality(
+            sensor=self.sensor,
+            is_reference=is_reference,
+            frames_per_s=self._rate(now_s),
+            latency_s=self.clock.delay_s,
+            joints_tracked=int(np.count_nonzero(last.state == TrackingState.TRACKED)) if last else 0,
+            clock_offset_s=self._clock_offset(reference),
+            residual_m=0.0 if is_reference else found.residual_m if found else float("nan"),
+            aligned=self.fault is None and (is_reference or found is not None),
+            last_seen_s=self._times[-1] if self._times else float("nan"),
+            refused_joints=self._refused_joints,
+            warnings=self._warnings(now_s),
+        )
+
+    def _rate(self, now_s: float) -> float:
+        recent = [t_s for t_s in self._times if now_s - RATE_OVER_S < t_s]
+        return (len(recent) - 1) / max(recent[-1] - recent[0], 1e-3) if len(recent) > 1 else 0.0
+
+    def _clock_offset(self, reference: SensorWatch | None) -> float:
+        """From the sensor's own clock to the reference's own: the learnt offset and both clocks' differences."""
+        if self._given is not None:
+            return self._given.clock_offset_s
+        if reference is None or reference is self or self.alignment is None:
+            return 0.0
+        return self.alignment.clock_offset_s + reference.clock.difference_s - self.clock.difference_s
+
+    def _warnings(self, now_s: float) -> tuple[str, ...]:
+        told: list[str] = []
+        if self.fault is not None:
+            told.append(f"{self.sensor}: {self.fault}")
+        if self._times and now_s - self._times[-1] > SILENT_AFTER_S:
+            told.append(f"{self.sensor}: silent. Check its cable, its program and that the patient is in view")
+        if any(learner.moved for learner in self._learners.values()):
+            told.append(f"{self.sensor}: it was moved; its place is being learnt anew. Let the patient move a little")
+        if len(self._mended) == RECENT_MENDS and np.mean(self._mended) > OFTEN:
+            told.append(f"{self.sensor}: left and right look exchanged. Let the patient turn towards this sensor")
+        return tuple(told)

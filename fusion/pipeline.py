@@ -1,0 +1,239 @@
+"""The whole idea: samples go in as they come; the fused body, its angles and the mirrored target come out."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from fusion.align.alignment import SensorAlignment, reference_alignment
+from fusion.align.identity import Expected, PatientFinder, trunk_centre
+from fusion.align.learner import EVERY_S
+from fusion.align.mend import Mending, mend
+from fusion.align.watch import SensorWatch
+from fusion.errors import InputError
+from fusion.estimation import METHODS
+from fusion.kinematics.angles import arm_angles
+from fusion.kinematics.body_frame import trunk_frame
+from fusion.kinematics.lengths import LengthLearner
+from fusion.kinematics.mirror import mirror
+from fusion.messages import (
+    AlignedSample,
+    ArmLengths,
+    FusedFrame,
+    JointAngles,
+    MirrorTarget,
+    PipelineFrame,
+    SensorQuality,
+    SkeletonSample,
+    TrunkFrame,
+)
+from fusion.rewind import RewindingEstimator
+from fusion.skeleton import Side
+
+ENOUGH_TO_REFER_S = 0.5
+"""A sensor that has shown a body for this long may become the reference."""
+STALE_AFTER_S = 0.5
+"""Without any sample for this long the body is not told any more."""
+SURE_FOR_S = 0.3
+"""A predicted body may judge a sample's sides while some sample was this recent."""
+
+
+@dataclass(frozen=True, slots=True)
+class PipelineSettings:
+    """What the pipeline is told beforehand."""
+
+    healthy_side: Side
+    method: str = "set-membership"
+    reference: str | None = None
+    """The sensor whose frame is the room's; None takes the first that shows a body for half a second."""
+    alignments: Mapping[str, SensorAlignment] | None = None
+    """Known alignment of every sensor but the reference, own clocks counting; None learns them on the way."""
+
+
+class Pipeline:
+    """Joins what several sensors see of one patient.
+
+    Time is the monotonic receive clock where alignments are learnt, and the reference's own clock where they are given.
+
+    Raises:
+        InputError: the method is not known.
+    """
+
+    def __init__(self, settings: PipelineSettings) -> None:
+        if settings.method not in METHODS:
+            raise InputError(f"no method is called '{settings.method}'", f"one of {', '.join(METHODS)}")
+        self._settings = settings
+        self._reference = settings.reference
+        self._sensors: dict[str, SensorWatch] = {}
+        self._patient = PatientFinder()
+        self._body = RewindingEstimator(METHODS[settings.method])
+        self._lengths = LengthLearner()
+        self._recent: FusedFrame | None = None
+        self._target: MirrorTarget | None = None
+        self._latest: dict[str, AlignedSample] = {}
+        self._newest_received_s = float("nan")
+        self._next_learning_s = -np.inf
+
+    def take(self, sample: SkeletonSample) -> None:
+        """Take one body of one frame; samples of different sensors may come in any order."""
+        watch = self._watch(sample.sensor)
+        t_s = watch.receive(sample)
+        self._newest_received_s = float(np.fmax(self._newest_received_s, sample.t_received_s))
+        if not self._patient.is_patient(sample, t_s, lambda: self._expected(watch, t_s)):
+            watch.refusals["another person"] += 1
+            return
+        alignment = self._alignment(watch)
+        if alignment is None:
+            watch.refusals["not aligned yet" if watch.fault is None else watch.fault.what] += 1
+            return
+        aligned = alignment.apply(sample, t_s - alignment.clock_offset_s)
+        mended, what = mend(aligned, self._predicted(aligned.t_s))
+        refused = self._body.take(mended)
+        self._account(watch, sample, what, refused)
+        self._latest[sample.sensor] = mended
+
+    def step(self, t_s: float) -> PipelineFrame:
+        """Everything that can be said at `t_s` from what has been taken so far."""
+        self._learn(t_s)
+        fused = self._fresh(t_s)
+        trunk = trunk_frame(fused.positions_in_room) if fused else None
+        healthy = self._angles(fused, trunk)
+        self._target = mirror(healthy, self._target) if healthy else None
+        return PipelineFrame(
+            t_s=t_s,
+            sensors=self.sensors(t_s),
+            samples=tuple(self._latest.values()),
+            fused=fused,
+            trunk=trunk,
+            lengths=self._lengths.lengths,
+            healthy=healthy,
+            target=self._target,
+            newest_received_s=self._newest_received_s,
+        )
+
+    def follow(self, sensor: str, body: str) -> None:
+        """A person's choice: this body of this sensor is the patient."""
+        self._patient.follow(sensor, body)
+        self._body.restart()
+        self._lengths = LengthLearner()
+        self._recent = self._target = None
+
+    def fused_at(self, t_s: float) -> FusedFrame | None:
+        """The body at `t_s`, however long nobody has seen it; None before the first sample."""
+        newest_s = self._body.newest_s
+        return None if newest_s is None else self._body.frame(max(t_s + self.lead_s, newest_s))
+
+    def sensors(self, t_s: float) -> tuple[SensorQuality, ...]:
+        """How each sensor does."""
+        reference = self._sensors.get(self._reference or "")
+        return tuple(watch.quality(t_s, reference) for watch in self._sensors.values())
+
+    @property
+    def lead_s(self) -> float:
+        """How far a faster sensor is ahead of the reference: the patient's present is what the fastest one sees."""
+        if self._settings.alignments is not None:
+            return 0.0
+        return max((0.0 - found.clock_offset_s for found in self.alignments().values()), default=0.0)
+
+    def alignments(self) -> dict[str, SensorAlignment]:
+        """The alignment of every sensor that has one, the reference included."""
+        found = {name: self._alignment(watch) for name, watch in self._sensors.items()}
+        return {name: alignment for name, alignment in found.items() if alignment is not None}
+
+    def refusals(self) -> dict[str, dict[str, int]]:
+        """Frames and joints not used so far, by sensor and reason."""
+        return {name: dict(watch.refusals) for name, watch in self._sensors.items()}
+
+    # --- the steps
+
+    def _watch(self, sensor: str) -> SensorWatch:
+        watch = self._sensors.get(sensor)
+        if watch is None:
+            watch = self._sensors[sensor] = SensorWatch(sensor, self._given(sensor))
+        return watch
+
+    def _given(self, sensor: str) -> SensorAlignment | None:
+        if self._settings.alignments is None:
+            return None
+        return reference_alignment() if sensor == self._reference else self._settings.alignments.get(sensor)
+
+    def _alignment(self, watch: SensorWatch) -> SensorAlignment | None:
+        if watch.fault is not None:
+            return None
+        return reference_alignment() if watch.sensor == self._reference else watch.alignment
+
+    def _expected(self, watch: SensorWatch, t_s: float) -> Expected | None:
+        """Where this sensor should see the patient."""
+        alignment, body, newest_s = self._alignment(watch), self._recent, self._body.newest_s
+        if alignment is None or body is None or newest_s is None:
+            return None
+        centre = trunk_centre(body.positions_in_room, body.state)
+        if not np.isfinite(centre).all():
+            return None
+        in_sensor = (centre - alignment.translation_m) @ alignment.rotation_sensor_to_reference
+        return Expected(in_sensor, max(t_s - alignment.clock_offset_s - newest_s, 0.0))
+
+    def _predicted(self, t_s: float) -> FusedFrame | None:
+        recent = self._recent
+        return recent if recent is not None and abs(t_s - recent.t_s) < SURE_FOR_S else None
+
+    def _account(self, watch: SensorWatch, sample: SkeletonSample, what: Mending, refused: object) -> None:
+        if refused is None:
+            watch.refusals["came too late"] += 1
+        for refusal in refused if isinstance(refused, tuple) else ():
+            watch.refusals[refusal.reason] += 1
+        if what is not Mending.NONE:
+            watch.refusals[what.value] += 1
+        watch.note(sample, len(refused) if isinstance(refused, tuple) else 0, what is not Mending.NONE)
+
+    def _learn(self, t_s: float) -> None:
+        """Learn alignments on the way, a few times a second, one look at each sensor."""
+        if self._settings.alignments is not None or t_s < self._next_learning_s:
+            return
+        self._next_learning_s = t_s + EVERY_S
+        for name, watch in self._sensors.items():
+            watch.check(self._patient.followed(name))
+        self._elect()
+        track = (
+            self._sensors[self._reference].track(self._patient.followed(self._reference)) if self._reference else None
+        )
+        for name, watch in self._sensors.items():
+            if track is None or name == self._reference or watch.fault is not None:
+                continue
+            body = watch.learn(track, self._patient.followed(name))
+            if body is not None:
+                self._patient.prefer(name, body)
+
+    def _elect(self) -> None:
+        """The reference is the first sensor that has shown a body long enough and can be right."""
+        if self._reference in self._sensors and self._sensors[self._reference].fault is not None:
+            self._reference = None
+            self._body.restart()
+            for watch in self._sensors.values():
+                watch.forget()
+        if self._reference is None:
+            able = (n for n, w in self._sensors.items() if w.fault is None and self._shown_s(w) >= ENOUGH_TO_REFER_S)
+            self._reference = next(able, None)
+
+    def _shown_s(self, watch: SensorWatch) -> float:
+        return watch.seen_for_s(self._patient.followed(watch.sensor))
+
+    def _fresh(self, t_s: float) -> FusedFrame | None:
+        """The body, unless nobody has seen it for too long."""
+        fused = self.fused_at(t_s)
+        newest_s = self._body.newest_s
+        if fused is None or newest_s is None or fused.t_s - newest_s > STALE_AFTER_S:
+            return None
+        self._recent = fused
+        return fused
+
+    def _angles(self, fused: FusedFrame | None, trunk: TrunkFrame | None) -> JointAngles | None:
+        """The healthy arm's angles, once its lengths are known."""
+        if fused is None:
+            return None
+        side = self._settings.healthy_side
+        self._lengths.update(fused, side)
+        lengths: ArmLengths | None = self._lengths.lengths
+        return arm_angles(fused, trunk, side, lengths) if trunk is not None and lengths is not None else None

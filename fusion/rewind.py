@@ -1,0 +1,71 @@
+"""An estimator that takes samples in any order: late ones are put in their place by rewinding a short while."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from fusion.estimation.estimator import Estimator
+from fusion.messages import AlignedSample, FusedFrame, Refusal
+
+WINDOW_S = 0.4
+"""How late a sample may come and still count; two senders' delays differ by less."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Step:
+    """A sample taken, and what the estimator knew before it."""
+
+    sample: AlignedSample
+    before: object
+
+
+class RewindingEstimator:
+    """Gives an `Estimator` its samples in time order, whatever order they arrive in.
+
+    Args:
+        make: makes the estimator, once now and once for every fresh start.
+    """
+
+    def __init__(self, make: Callable[[], Estimator]) -> None:
+        self._make = make
+        self.restart()
+
+    def restart(self) -> None:
+        """Forget everything, as for another person."""
+        self._estimator = self._make()
+        self._steps: list[_Step] = []
+
+    @property
+    def newest_s(self) -> float | None:
+        """Time of the newest sample; None before the first."""
+        return self._steps[-1].sample.t_s if self._steps else None
+
+    def take(self, sample: AlignedSample) -> tuple[Refusal, ...] | None:
+        """Take a sample at its own time; its refused joints, or None where it came too late to be used."""
+        if self._steps and sample.t_s < self._steps[-1].sample.t_s - WINDOW_S:
+            return None
+        place = bisect_right(self._steps, sample.t_s, key=lambda step: step.sample.t_s)
+        later = [step.sample for step in self._steps[place:]]
+        if later:
+            self._estimator.restore(self._steps[place].before)
+            del self._steps[place:]
+        refusals = self._update(sample)
+        for again in later:
+            self._update(again)
+        self._trim()
+        return refusals
+
+    def frame(self, t_s: float) -> FusedFrame:
+        """The body at `t_s`, not before the newest sample."""
+        return self._estimator.frame(t_s)
+
+    def _update(self, sample: AlignedSample) -> tuple[Refusal, ...]:
+        self._steps.append(_Step(sample, self._estimator.snapshot()))
+        return self._estimator.update(sample)
+
+    def _trim(self) -> None:
+        oldest = self._steps[-1].sample.t_s - WINDOW_S
+        keep = bisect_right(self._steps, oldest, key=lambda step: step.sample.t_s)
+        del self._steps[:keep]
