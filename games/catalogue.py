@@ -13,8 +13,8 @@ from games.game import Game, GameSettings, Workspace
 class GameFactory(Protocol):
     """Makes a game at its beginning."""
 
-    def __call__(self, workspace: Workspace, seed: int, level: float, settings: GameSettings) -> Game:
-        """A new game that starts at difficulty `level` (0..1); the same arguments make the same game."""
+    def __call__(self, workspace: Workspace, seed: int, settings: GameSettings) -> Game:
+        """A new game; the same arguments make the same game."""
         ...
 
 
@@ -22,18 +22,9 @@ GAMES: Final[Mapping[str, GameFactory]] = {
     reach.NAME: reach.ReachGame,
 }
 
-USUAL: Final = GameSettings()
 
-
-def new_game(name: str, workspace: Workspace, seed: int, level: float, settings: GameSettings = USUAL) -> Game:
+def open_game(name: str, workspace: Workspace, seed: int, settings: GameSettings) -> Game:
     """A new game by name.
-
-    Args:
-        name: one of `GAMES`.
-        workspace: where the hand can go.
-        seed: of everything random in the game.
-        level: difficulty 0..1 at the start.
-        settings: rounds, times, whether the level adapts.
 
     Raises:
         InputError: there is no game of that name.
@@ -42,4 +33,4 @@ def new_game(name: str, workspace: Workspace, seed: int, level: float, settings:
         raise InputError(
             f"There is no game called '{name}'", f"one of {', '.join(sorted(GAMES))}", "choose one of these games"
         )
-    return GAMES[name](workspace, seed, level, settings)
+    return GAMES[name](workspace, seed, settings)

@@ -37,8 +37,10 @@ class GameSettings:
     rounds: int = 6
     round_s: float = 60.0
     rest_s: float = 20.0
-    adapts: bool = True
-    """Whether the difficulty moves towards 75 % success; False where the therapist pins it."""
+    start_level: float = 0.2
+    """Difficulty 0..1 at the start; adapted towards 75 % success."""
+    pinned_level: float | None = None
+    """A difficulty that stays, where the therapist wants no adaptation."""
 
 
 @dataclass(frozen=True, slots=True)

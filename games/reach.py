@@ -61,14 +61,14 @@ class ReachGame:
     Args:
         workspace: where the hand can go.
         seed: makes the targets; the same seed, settings and inputs give the same game.
-        level: difficulty 0..1 at the start.
-        settings: rounds, times, whether the level adapts.
+        settings: rounds, times, level.
     """
 
-    def __init__(self, workspace: Workspace, seed: int, level: float, settings: GameSettings) -> None:
+    def __init__(self, workspace: Workspace, seed: int, settings: GameSettings) -> None:
         self._workspace = workspace
         self._settings = settings
         self._rng = np.random.default_rng(seed)
+        level = settings.start_level if settings.pinned_level is None else settings.pinned_level
         hand = hand_at(workspace, middle_pose(workspace))
         self._state = State(hand=hand, time_left_s=settings.round_s, level=min(max(level, 0.0), 1.0))
 
@@ -143,7 +143,7 @@ class ReachGame:
         )
 
     def _next_level(self, level: float, *, hit: bool) -> float:
-        return adapted(level, hit) if self._settings.adapts else level
+        return adapted(level, hit) if self._settings.pinned_level is None else level
 
     def _timed(self, state: State, dt_s: float) -> State:
         """Count the round or the rest down, and change over at its end; what is over of the step counts on."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from games.catalogue import new_game
+from games.catalogue import open_game
 from games.game import GameInput, GameSettings, GameView, Workspace
 
 
@@ -16,7 +16,6 @@ class GameRecord:
     game: str
     workspace: Workspace
     seed: int
-    level: float
     settings: GameSettings
 
 
@@ -26,5 +25,5 @@ def replay(record: GameRecord, inputs: Iterable[GameInput]) -> Iterator[GameView
     Raises:
         InputError: there is no game of that name.
     """
-    game = new_game(record.game, record.workspace, record.seed, record.level, record.settings)
+    game = open_game(record.game, record.workspace, record.seed, record.settings)
     return (game.step(given) for given in inputs)

@@ -62,34 +62,34 @@ inputs = st.lists(st.builds(GameInput, st.floats(0, 0.2), hands, st.booleans()),
 
 @given(seed=st.integers(0, 2**32), given_inputs=inputs)
 def test_the_same_seed_and_inputs_give_the_same_game(seed: int, given_inputs: list[GameInput]) -> None:
-    record = GameRecord("reach", workspace(), seed, 0.2, SHORT)
+    record = GameRecord("reach", workspace(), seed, SHORT)
     assert list(replay(record, given_inputs)) == list(replay(record, given_inputs))
 
 
 def test_a_recorded_game_is_played_again_to_the_same_score() -> None:
-    game = ReachGame(workspace(), 7, 0.2, SHORT)
+    game = ReachGame(workspace(), 7, SHORT)
     views = played(game, 20.0)
     recorded = [GameInput(DT_S, view.hand, True) for view in views[1:]]
-    again = list(replay(GameRecord("reach", workspace(), 7, 0.2, SHORT), recorded))
+    again = list(replay(GameRecord("reach", workspace(), 7, SHORT), recorded))
     assert again == views[1:]
     assert again[-1].score > 0
 
 
 def test_another_seed_gives_other_targets() -> None:
-    first, second = (stepped(ReachGame(workspace(), seed, 0.2, SHORT), FAR).targets[0].position for seed in (1, 2))
+    first, second = (stepped(ReachGame(workspace(), seed, SHORT), FAR).targets[0].position for seed in (1, 2))
     assert first != second
 
 
 @pytest.mark.parametrize("side", list(Side))
 def test_a_hand_that_goes_to_the_targets_collects_them(side: Side) -> None:
-    views = played(ReachGame(workspace(side), 3, 0.2, SHORT), SHORT.round_s)
+    views = played(ReachGame(workspace(side), 3, SHORT), SHORT.round_s)
     assert views[-1].hits >= 5
     assert views[-1].misses == 0
 
 
 @given(given_inputs=inputs, seed=st.integers(0, 99))
 def test_the_score_never_falls_and_counts_follow_it(given_inputs: list[GameInput], seed: int) -> None:
-    game = ReachGame(workspace(), seed, 0.2, SHORT)
+    game = ReachGame(workspace(), seed, SHORT)
     before = game.view()
     for one in given_inputs:
         after = game.step(one)
@@ -101,7 +101,7 @@ def test_the_score_never_falls_and_counts_follow_it(given_inputs: list[GameInput
 
 
 def test_a_paused_game_changes_nothing_but_the_hand() -> None:
-    game = ReachGame(workspace(), 3, 0.2, SHORT)
+    game = ReachGame(workspace(), 3, SHORT)
     view = played(game, 3.2)[-1]
     for k in range(400):
         paused = stepped(game, (0.001 * k, 0.0, -0.3), active=False)
@@ -109,7 +109,7 @@ def test_a_paused_game_changes_nothing_but_the_hand() -> None:
 
 
 def test_a_game_waits_until_the_arm_is_driven() -> None:
-    game = ReachGame(workspace(), 3, 0.2, SHORT)
+    game = ReachGame(workspace(), 3, SHORT)
     assert stepped(game, FAR, active=False).phase == "waiting"
     assert game.view().targets == ()
     started = stepped(game, FAR)
@@ -119,7 +119,7 @@ def test_a_game_waits_until_the_arm_is_driven() -> None:
 
 @given(steps=st.lists(st.floats(0.001, 0.1), min_size=1, max_size=800))
 def test_rounds_and_rests_take_the_time_they_should(steps: list[float]) -> None:
-    game = ReachGame(workspace(), 3, 0.2, GameSettings(rounds=3, round_s=2.0, rest_s=1.0))
+    game = ReachGame(workspace(), 3, GameSettings(rounds=3, round_s=2.0, rest_s=1.0))
     passed_s = 0.0
     for dt_s in steps:
         view = stepped(game, FAR, dt_s=dt_s)
@@ -136,7 +136,7 @@ def test_rounds_and_rests_take_the_time_they_should(steps: list[float]) -> None:
 
 
 def test_a_game_that_is_over_stays_over() -> None:
-    game = ReachGame(workspace(), 3, 0.2, GameSettings(rounds=1, round_s=1.0))
+    game = ReachGame(workspace(), 3, GameSettings(rounds=1, round_s=1.0))
     views = played(game, 3.0)
     assert views[-1].phase == "over"
     assert views[-1].time_left_s == 0.0
@@ -144,13 +144,13 @@ def test_a_game_that_is_over_stays_over() -> None:
 
 
 def test_no_target_stands_while_the_patient_rests() -> None:
-    views = played(ReachGame(workspace(), 3, 0.2, SHORT), 14.5)
+    views = played(ReachGame(workspace(), 3, SHORT), 14.5)
     assert views[-1].phase == "rest"
     assert views[-1].targets == ()
 
 
 def test_a_target_nobody_reaches_is_taken_away_without_loss() -> None:
-    game = ReachGame(workspace(), 3, 0.0, GameSettings())
+    game = ReachGame(workspace(), 3, GameSettings(round_s=60.0, start_level=0.0))
     views = [stepped(game, FAR) for _ in range(round((EASY_TIME_S + 0.2) / DT_S))]
     assert views[-1].misses == 1
     assert views[-1].score == 0
@@ -158,7 +158,7 @@ def test_a_target_nobody_reaches_is_taken_away_without_loss() -> None:
 
 
 def test_leaving_a_target_loses_the_dwell_slowly() -> None:
-    game = ReachGame(workspace(), 3, 1.0, GameSettings(adapts=False))
+    game = ReachGame(workspace(), 3, GameSettings(pinned_level=1.0))
     target = stepped(game, FAR).targets[0]
     held = [stepped(game, target.position).targets[0].progress for _ in range(6)]
     left = stepped(game, FAR).targets[0].progress
@@ -167,7 +167,7 @@ def test_leaving_a_target_loses_the_dwell_slowly() -> None:
 
 
 def test_a_run_of_hits_is_worth_a_little_more_up_to_a_limit() -> None:
-    views = played(ReachGame(workspace(), 3, 0.2, GameSettings(round_s=300.0, adapts=False)), 60.0)
+    views = played(ReachGame(workspace(), 3, GameSettings(round_s=300.0, pinned_level=0.2)), 60.0)
     gains = [b.score - a.score for a, b in pairwise(views) if b.hits > a.hits]
     assert gains[0] == POINTS_PER_HIT
     assert gains == sorted(gains)
@@ -176,13 +176,13 @@ def test_a_run_of_hits_is_worth_a_little_more_up_to_a_limit() -> None:
 
 @pytest.mark.parametrize("bad", [(float("nan"), 0.0, 0.0), (float("inf"), 0.0, 0.0)])
 def test_a_hand_that_is_not_known_stays_where_it_was(bad: Point) -> None:
-    game = ReachGame(workspace(), 3, 0.2, SHORT)
+    game = ReachGame(workspace(), 3, SHORT)
     before = stepped(game, (0.1, 0.0, -0.3))
     assert stepped(game, bad).hand == before.hand
 
 
 def test_a_stalled_machine_costs_the_patient_nothing() -> None:
-    game = ReachGame(workspace(), 3, 0.2, SHORT)
+    game = ReachGame(workspace(), 3, SHORT)
     stepped(game, FAR)
     assert stepped(game, FAR, dt_s=30.0).misses == 0
 
@@ -190,7 +190,7 @@ def test_a_stalled_machine_costs_the_patient_nothing() -> None:
 def test_the_level_rests_where_three_of_four_targets_are_collected() -> None:
     # A patient whose chance to reach a target falls with the level from 100 % to 50 %: 75 % lies at level 0.5.
     rng = np.random.default_rng(5)
-    game = ReachGame(workspace(), 11, 0.2, GameSettings(rounds=1, round_s=1e6))
+    game = ReachGame(workspace(), 11, GameSettings(rounds=1, round_s=1e6))
     view = stepped(game, FAR)
     able, shown = True, -1
     for _ in range(30_000):
@@ -202,6 +202,6 @@ def test_the_level_rests_where_three_of_four_targets_are_collected() -> None:
 
 
 def test_a_pinned_level_stays() -> None:
-    views = played(ReachGame(workspace(), 3, 0.7, GameSettings(adapts=False)), 30.0)
+    views = played(ReachGame(workspace(), 3, GameSettings(pinned_level=0.7)), 30.0)
     assert {view.level for view in views} == {0.7}
     assert views[1].targets[0].radius_m < EASY_RADIUS_M
