@@ -1,0 +1,33 @@
+"""One figure of a session, as it is stored and shown."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+from fusion.skeleton import Side
+
+PASSIVE_DRIVE: Final = "caveat.passive_drive"
+"""The exoskeleton moved the arm, so the figure measures the drive and not the patient."""
+SENSOR_NOISE: Final = "caveat.sensor_noise"
+"""The sensors' noise is a good part of the figure; compare within one set-up only."""
+
+
+@dataclass(frozen=True, slots=True)
+class Metric:
+    """A figure; docs/metrics.md defines each by its name."""
+
+    name: str
+    value: float
+    unit: str
+    """SI: m, s, rad, m/s, Hz; min for minutes, 1 for counts and ratios."""
+    joint: str | None = None
+    """The exoskeleton joint it is of, or the sensor's name in a sensor's figures."""
+    side: Side | None = None
+    caveat_key: str | None = None
+    """String key of what must be said beside it."""
+
+    @property
+    def label_key(self) -> str:
+        """String key of its name."""
+        return f"metric.{self.name}"
