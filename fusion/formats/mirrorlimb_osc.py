@@ -55,7 +55,7 @@ class MirrorlimbOsc:
         """One datagram."""
         states = "".join(map(str, sample.state.tolist()))
         points = np.where(sample.state[:, None] > 0, sample.positions_in_sensor, 0.0).ravel().tolist()
-        head = (sample.sensor, sequence % _WRAP, sample.t_s, sample.body, _SKELETON, states)
+        head = (sample.sensor[-_MAX_NAME:], sequence % _WRAP, sample.t_s, sample.body[-_MAX_NAME:], _SKELETON, states)
         return [write(_ADDRESS, _TAGS, *head, *points)]
 
 
