@@ -65,7 +65,13 @@ def check() -> None:
     """Refuse a web side that does not compile, lint, pass its unit tests or match the service's types."""
     _install()
     _run_tool("tsc", "--noEmit", remedy="mend the types named above")
-    _run_tool("biome", "check", ".", remedy="mend what is named above; 'npx biome check --write .' in web/ does most")
+    _run_tool(
+        "biome",
+        "check",
+        "--error-on-warnings",
+        ".",
+        remedy="mend what is named above; 'npx biome check --write .' in web/ does most",
+    )
     _run_tool("vitest", "run", "--reporter=dot", remedy="mend the unit tests named above")
     _check_schema()
 

@@ -3,4 +3,33 @@ import type { components } from "./schema";
 
 type Schemas = components["schemas"];
 
+export type Account = Schemas["AccountPublic"];
+export type Action = Schemas["Control"]["action"];
+export type ArmView = Schemas["ArmView"];
+export type Curves = Schemas["Curves"];
+export type DriveState = Schemas["DriveState"];
+export type ErrorDetail = Schemas["ErrorDetail"];
+export type GameView = Schemas["GameView"];
+export type JointRange = Schemas["JointRange"];
 export type LiveMessage = Schemas["LiveMessage"];
+export type LiveTick = Schemas["LiveTick"];
+export type Metric = Schemas["MetricPublic"];
+export type PassiveRange = Schemas["PassiveRange"];
+export type Patient = Schemas["PatientPublic"];
+export type PatientForm = Schemas["PatientCreate"];
+export type SensorView = Schemas["SensorView"];
+export type Session = Schemas["SessionPublic"];
+export type SessionDetail = Schemas["SessionDetail"];
+export type SessionEvent = Schemas["EventPublic"];
+export type SessionOpen = Schemas["SessionOpen"];
+export type Side = Schemas["Side"];
+export type Station = Schemas["Station"];
+export type Status = Schemas["Status"];
+
+/** The exoskeleton's joints, in the order in which the service lists their values. */
+export const JOINTS = ["plane", "elevation", "rotation", "elbow"] as const;
+export type Joint = (typeof JOINTS)[number];
+
+export function otherSide(side: Side): Side {
+  return side === "left" ? "right" : "left";
+}

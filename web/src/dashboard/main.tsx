@@ -1,6 +1,8 @@
 // The therapist's dashboard.
 import { render } from "preact";
-import { t } from "../strings";
+import "uplot/dist/uPlot.min.css";
+import { App } from "./app";
+import "./style.css";
 
 const root = document.getElementById("app");
-if (root) render(<p>{t("app.disclaimer")}</p>, root);
+if (root) render(<App />, root);

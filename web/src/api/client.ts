@@ -1,0 +1,79 @@
+// What the dashboard asks of the service, typed by its own description.
+import createClient from "openapi-fetch";
+import { t } from "../strings";
+import type { paths } from "./schema";
+import type { Action, ErrorDetail, PatientForm, SessionOpen } from "./types";
+
+/** A refusal or a failure, as something a person can read and act upon. */
+export class Problem extends Error {
+  constructor(
+    readonly status: number,
+    readonly detail: ErrorDetail,
+  ) {
+    super(detail.what);
+  }
+}
+
+/** Nobody is logged in any more. */
+export const NOT_LOGGED_IN = 401;
+const NO_ANSWER = 0;
+
+interface Reply<T> {
+  data?: T;
+  error?: unknown;
+  response: Response;
+}
+
+const http = createClient<paths>({ baseUrl: "/" });
+
+async function taken<T>(asked: Promise<Reply<T>>): Promise<T> {
+  const reply = await asked.catch(() => {
+    throw new Problem(NO_ANSWER, noAnswer());
+  });
+  if (!reply.response.ok) throw new Problem(reply.response.status, detailOf(reply.error));
+  return reply.data as T;
+}
+
+function noAnswer(): ErrorDetail {
+  return { what: t("problem.offline"), expected: t("problem.offline.expected"), remedy: t("problem.offline.remedy") };
+}
+
+/** What is wrong, also where something other than the service (a proxy) has answered. */
+export function detailOf(error: unknown): ErrorDetail {
+  const detail = (error as { detail?: Partial<ErrorDetail> } | undefined)?.detail;
+  if (typeof detail?.what === "string") {
+    return { what: detail.what, expected: detail.expected ?? "", remedy: detail.remedy ?? "" };
+  }
+  return { what: t("problem.unreadable"), expected: "", remedy: t("problem.offline.remedy") };
+}
+
+export const readStatus = () => taken(http.GET("/api/status"));
+export const setUp = (name: string, password: string) => taken(http.POST("/api/setup", { body: { name, password } }));
+export const logIn = (name: string, password: string) => taken(http.POST("/api/login", { body: { name, password } }));
+export const logOut = () => taken(http.POST("/api/logout"));
+export const enterDemo = () => taken(http.POST("/api/demo"));
+
+export const listPatients = () => taken(http.GET("/api/patients"));
+export const readPatient = (id: number) =>
+  taken(http.GET("/api/patients/{patient_id}", { params: { path: { patient_id: id } } }));
+export const enrolPatient = (form: PatientForm) => taken(http.POST("/api/patients", { body: form }));
+export const changePatient = (id: number, form: PatientForm) =>
+  taken(http.PATCH("/api/patients/{patient_id}", { params: { path: { patient_id: id } }, body: form }));
+export const readHistory = (id: number) =>
+  taken(http.GET("/api/patients/{patient_id}/sessions", { params: { path: { patient_id: id } } }));
+
+export const openSession = (form: SessionOpen) => taken(http.POST("/api/sessions", { body: form }));
+export const currentSession = () => taken(http.GET("/api/sessions/current"));
+export const readSession = (id: number) => taken(http.GET("/api/sessions/{session_id}", session(id)));
+export const readCurves = (id: number) => taken(http.GET("/api/sessions/{session_id}/curves", session(id)));
+export const readEvents = (id: number) => taken(http.GET("/api/sessions/{session_id}/events", session(id)));
+export const control = (id: number, action: Action) =>
+  taken(http.POST("/api/sessions/{session_id}/control", { ...session(id), body: { action } }));
+export const endSession = (id: number, painAfter: number | null) =>
+  taken(http.POST("/api/sessions/{session_id}/end", { ...session(id), body: { pain_after: painAfter } }));
+
+export const readStation = () => taken(http.GET("/api/station"));
+
+function session(id: number) {
+  return { params: { path: { session_id: id } } };
+}

@@ -1,0 +1,84 @@
+// The dashboard as a whole: who is logged in decides what is shown, then the address does.
+import { useEffect } from "preact/hooks";
+import { logOut, readStatus } from "../api/client";
+import { t } from "../strings";
+import { FirstStart, LogIn } from "./entry";
+import { Frame } from "./frame";
+import { ASK_WHO, useAsked, useDoing, useLanguage, useRoute } from "./hooks";
+import { LivePage } from "./live/page";
+import { ChangePatient, EnrolPatient } from "./patient/form";
+import { PatientPage } from "./patient/page";
+import { PatientList } from "./patients";
+import { ProblemBox } from "./problem";
+import type { Route } from "./route";
+import { PreparePage } from "./session/prepare";
+import { SummaryPage } from "./session/summary";
+
+export function App() {
+  useLanguage();
+  const route = useRoute();
+  const status = useAsked(readStatus, "status");
+  const leaving = useDoing();
+  useEffect(() => {
+    window.addEventListener(ASK_WHO, status.again);
+    return () => window.removeEventListener(ASK_WHO, status.again);
+  }, [status.again]);
+
+  const account = status.value?.account ?? null;
+  const leave = () => leaving.run(() => logOut().then(status.again));
+  return (
+    <Frame account={account} at={account && placeOf(route)} version={status.value?.version ?? ""} onLogOut={leave}>
+      <Inside status={status} route={route} problem={<ProblemBox problem={leaving.problem} />} />
+    </Frame>
+  );
+}
+
+interface InsideProps {
+  status: ReturnType<typeof useAsked<Awaited<ReturnType<typeof readStatus>>>>;
+  route: Route;
+  problem: preact.ComponentChildren;
+}
+
+function Inside({ status, route, problem }: InsideProps) {
+  const known = status.value;
+  if (!known) return <Waiting status={status} />;
+  if (known.first_start && !known.account) return <FirstStart demo={known.demo} onEntered={status.again} />;
+  if (!known.account) return <LogIn demo={known.demo} onEntered={status.again} />;
+  return (
+    <>
+      {problem}
+      <Page route={route} />
+    </>
+  );
+}
+
+function Waiting({ status }: { status: InsideProps["status"] }) {
+  return (
+    <main class="page page-narrow">
+      {status.problem ? <ProblemBox problem={status.problem} onRetry={status.again} /> : <p>{t("app.loading")}</p>}
+    </main>
+  );
+}
+
+function Page({ route }: { route: Route }) {
+  switch (route.page) {
+    case "patients":
+      return <PatientList />;
+    case "enrol":
+      return <EnrolPatient />;
+    case "patient":
+      return <PatientPage key={route.id} id={route.id} />;
+    case "change-patient":
+      return <ChangePatient key={route.id} id={route.id} />;
+    case "prepare":
+      return <PreparePage key={route.id} id={route.id} />;
+    case "live":
+      return <LivePage />;
+    case "summary":
+      return <SummaryPage key={route.id} id={route.id} />;
+  }
+}
+
+function placeOf(route: Route): "patients" | "live" {
+  return route.page === "live" ? "live" : "patients";
+}

@@ -1,0 +1,58 @@
+// Numbers and dates as people read them: degrees, millimetres, milliseconds.
+import { language } from "../strings";
+
+const DEGREES_PER_RAD = 180 / Math.PI;
+const NOTHING = "–";
+
+export function degrees(angleRad: number): number {
+  return angleRad * DEGREES_PER_RAD;
+}
+
+export function radians(angleDeg: number): number {
+  return angleDeg / DEGREES_PER_RAD;
+}
+
+/** A number with `digits` decimals, or a dash where there is none. */
+export function figure(value: number | null | undefined, digits = 0): string {
+  if (value === null || value === undefined || !Number.isFinite(value)) return NOTHING;
+  const text = value.toFixed(digits);
+  return Number(text) === 0 ? (0).toFixed(digits) : text.replace("-", "−");
+}
+
+export function angleText(angleRad: number | null | undefined): string {
+  return typeof angleRad === "number" && Number.isFinite(angleRad) ? `${figure(degrees(angleRad))}°` : NOTHING;
+}
+
+/** Thousandths, as milliseconds of seconds or millimetres of metres. */
+export function thousandths(value: number | null | undefined): string {
+  return typeof value === "number" ? figure(value * 1000) : NOTHING;
+}
+
+/** Minutes and seconds, `4:07`. */
+export function duration(seconds: number): string {
+  const whole = Math.max(0, Math.round(seconds));
+  return `${Math.floor(whole / 60)}:${String(whole % 60).padStart(2, "0")}`;
+}
+
+export function secondsBetween(start: string | undefined, end: string | null | undefined): number | null {
+  if (!start || !end) return null;
+  return (Date.parse(end) - Date.parse(start)) / 1000;
+}
+
+export function dateAndTime(iso: string | undefined): string {
+  if (!iso) return NOTHING;
+  return new Date(iso).toLocaleString(language() === "zh" ? "zh-CN" : "en-GB", {
+    dateStyle: "medium",
+    timeStyle: "short",
+  });
+}
+
+export function clockTime(iso: string | undefined): string {
+  if (!iso) return NOTHING;
+  return new Date(iso).toLocaleTimeString(language() === "zh" ? "zh-CN" : "en-GB");
+}
+
+/** A phrase of the service with a capital at its head. */
+export function sentence(phrase: string): string {
+  return phrase.charAt(0).toUpperCase() + phrase.slice(1);
+}

@@ -1,0 +1,48 @@
+// The live stream as the page uses it: a plain object that always holds the newest message.
+import { useEffect, useState } from "preact/hooks";
+import { connectLive, type Link } from "../../api/live";
+import type { LiveMessage } from "../../api/types";
+import { ASK_WHO } from "../hooks";
+import { Traces } from "./traces";
+
+export class Feed {
+  newest: LiveMessage | null = null;
+  link: Link = "connecting";
+  readonly traces = new Traces();
+
+  take(message: LiveMessage): void {
+    this.newest = message;
+    this.traces.take(message.tick);
+  }
+}
+
+/** A feed that follows the stream for as long as the page is shown. */
+export function useFeed(): Feed {
+  const [feed] = useState(() => new Feed());
+  useEffect(() => {
+    const connection = connectLive(
+      (message) => feed.take(message),
+      (link) => {
+        feed.link = link;
+        // The stream also breaks when the log-in has run out, and a browser is not told why it was refused.
+        if (link === "lost") window.dispatchEvent(new Event(ASK_WHO));
+      },
+    );
+    return () => connection.close();
+  }, [feed]);
+  return feed;
+}
+
+/**
+ * What `read` finds in the feed, looked at `timesPerS` times a second. The caller is drawn again only when `read` finds
+ * another value than before, so whoever reads a word is drawn only when the word changes.
+ */
+export function useFromFeed<T>(feed: Feed, timesPerS: number, read: (feed: Feed) => T): T {
+  const [value, setValue] = useState(() => read(feed));
+  // `read` is the same function written anew at every drawing, so it does not count.
+  useEffect(() => {
+    const timer = setInterval(() => setValue(() => read(feed)), 1000 / timesPerS);
+    return () => clearInterval(timer);
+  }, [feed, timesPerS]);
+  return value;
+}

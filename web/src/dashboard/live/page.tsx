@@ -1,0 +1,92 @@
+// The live session on one screen: state and controls, 3-D view, curves, sensors, exoskeleton, game.
+import { useRef, useState } from "preact/hooks";
+import { currentSession } from "../../api/client";
+import type { Action, Session } from "../../api/types";
+import { t } from "../../strings";
+import { useAsked, useDoing } from "../hooks";
+import { ProblemBox } from "../problem";
+import { hrefOf } from "../route";
+import { send } from "./actions";
+import { Aside } from "./aside";
+import { Controls } from "./controls";
+import { LiveCurve } from "./curve";
+import { EndQuestion } from "./end-question";
+import { Exo } from "./exo";
+import { useFeed } from "./feed";
+import "./live.css";
+import { Sensors } from "./sensors";
+import { StateBanner } from "./state-banner";
+import { useStopKey } from "./stop-key";
+
+const VIEW_PAGE = "/view3d/";
+
+export function LivePage() {
+  const current = useAsked(currentSession, "current");
+  if (current.value) return <Live session={current.value} />;
+  return (
+    <main class="page page-narrow">
+      <ProblemBox problem={current.problem} onRetry={current.again} />
+      {!current.problem && current.answered && <NoSession />}
+    </main>
+  );
+}
+
+function NoSession() {
+  return (
+    <section class="card">
+      <h1>{t("live.none")}</h1>
+      <p>{t("live.none.what")}</p>
+      <a class="button primary big" href={hrefOf({ page: "patients" })}>
+        {t("nav.patients")}
+      </a>
+    </section>
+  );
+}
+
+function Live({ session }: { session: Session }) {
+  const feed = useFeed();
+  const wishes = useDoing();
+  const [ending, setEnding] = useState(false);
+  const wish = (action: Action) => wishes.run(() => send(session.id, action));
+  const alsoListenIn = useStopKey(() => wish("stop"));
+  return (
+    <main class="live" data-testid="live">
+      <StateBanner feed={feed}>
+        <Controls feed={feed} onWish={wish} />
+      </StateBanner>
+      <div class="live-main">
+        <View3d onLoad={alsoListenIn} />
+        <div class="live-curves">
+          <LiveCurve feed={feed} first="elevation" />
+          <LiveCurve feed={feed} first="elbow" />
+        </div>
+      </div>
+      <div class="live-foot">
+        <Sensors feed={feed} />
+        <Exo feed={feed} />
+        <Aside feed={feed} onEnd={() => setEnding(true)} />
+      </div>
+      {wishes.problem && (
+        <div class="toast">
+          <ProblemBox problem={wishes.problem} onClose={wishes.forget} />
+        </div>
+      )}
+      {ending && <EndQuestion session={session.id} onCancel={() => setEnding(false)} />}
+    </main>
+  );
+}
+
+function View3d({ onLoad }: { onLoad: (inside: Window | null) => void }) {
+  const frame = useRef<HTMLIFrameElement>(null);
+  return (
+    <div class="view3d">
+      <iframe
+        title={t("live.view3d")}
+        src={VIEW_PAGE}
+        ref={frame}
+        onLoad={() => onLoad(frame.current?.contentWindow ?? null)}
+        data-testid="view3d"
+      />
+    </div>
+  );
+}

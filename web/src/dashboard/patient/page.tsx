@@ -1,0 +1,98 @@
+// One patient: who, how far the arm may go, and what the sessions have shown.
+import { currentSession, readHistory, readPatient } from "../../api/client";
+import { JOINTS, otherSide, type Patient } from "../../api/types";
+import { t } from "../../strings";
+import { angleText } from "../format";
+import { useAsked } from "../hooks";
+import { ProblemBox } from "../problem";
+import { hrefOf } from "../route";
+import { History } from "./history";
+import { Trend } from "./trend";
+
+export function PatientPage({ id }: { id: number }) {
+  const patient = useAsked(() => readPatient(id), id);
+  const sessions = useAsked(() => readHistory(id), id);
+  return (
+    <main class="page">
+      <ProblemBox problem={patient.problem ?? sessions.problem} onRetry={patient.again} />
+      {patient.value && <Head patient={patient.value} />}
+      {sessions.value && (
+        <section class="card">
+          <h2>{t("history.title")}</h2>
+          {sessions.value.length === 0 ? (
+            <p class="soft">{t("history.none")}</p>
+          ) : (
+            <>
+              <Trend sessions={sessions.value} />
+              <History sessions={sessions.value} />
+            </>
+          )}
+        </section>
+      )}
+      {patient.value && <Known patient={patient.value} />}
+    </main>
+  );
+}
+
+function Head({ patient }: { patient: Patient }) {
+  return (
+    <div class="heading">
+      <div>
+        <h1>{patient.name}</h1>
+        <p>{t(`patient.affected.${otherSide(patient.healthy_side)}`)}</p>
+      </div>
+      <div class="row">
+        <a class="button" href={hrefOf({ page: "change-patient", id: patient.id })} data-testid="change-patient">
+          {t("action.change")}
+        </a>
+        <OpenButton patient={patient} />
+      </div>
+    </div>
+  );
+}
+
+/** Leads to the open session where this patient has one, else to the preparation of a new one. */
+function OpenButton({ patient }: { patient: Patient }) {
+  const current = useAsked(currentSession, patient.id);
+  if (current.value?.patient_id === patient.id) {
+    return (
+      <a class="button primary big" href={hrefOf({ page: "live" })} data-testid="go-live">
+        {t("session.go-on")}
+      </a>
+    );
+  }
+  return (
+    <a class="button primary big" href={hrefOf({ page: "prepare", id: patient.id })} data-testid="open-session">
+      {t("session.open")}
+    </a>
+  );
+}
+
+function Known({ patient }: { patient: Patient }) {
+  return (
+    <div class="columns">
+      <section class="card">
+        <h2>{t("patient.notes")}</h2>
+        <p class="notes">{patient.notes || <span class="soft">{t("patient.notes.none")}</span>}</p>
+      </section>
+      <section class="card">
+        <h2>{t("range.title")}</h2>
+        <table>
+          <tbody>
+            {JOINTS.map((joint) => (
+              <tr key={joint}>
+                <td>{t(`joint.${joint}`)}</td>
+                <td class="number">
+                  {t("range.between", {
+                    min: angleText(patient.passive_range?.[joint]?.min_rad),
+                    max: angleText(patient.passive_range?.[joint]?.max_rad),
+                  })}
+                </td>
+              </tr>
+            ))}
+          </tbody>
+        </table>
+      </section>
+    </div>
+  );
+}

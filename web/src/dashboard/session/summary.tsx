@@ -1,0 +1,69 @@
+// What a session has shown: figures with what they mean, curves, and what happened.
+import { readCurves, readEvents, readSession } from "../../api/client";
+import type { SessionDetail } from "../../api/types";
+import { isKey, t } from "../../strings";
+import { dateAndTime, duration, figure, secondsBetween } from "../format";
+import { useAsked } from "../hooks";
+import { ProblemBox } from "../problem";
+import { hrefOf } from "../route";
+import { SessionCurves } from "./curves";
+import { EventList } from "./events";
+import { Figures } from "./figures";
+
+export function SummaryPage({ id }: { id: number }) {
+  const session = useAsked(() => readSession(id), id);
+  const curves = useAsked(() => readCurves(id), id);
+  const events = useAsked(() => readEvents(id), id);
+  return (
+    <main class="page" data-testid="summary">
+      <ProblemBox problem={session.problem} onRetry={session.again} />
+      {session.value && <Head session={session.value} />}
+      {session.value && (
+        <Figures
+          metrics={session.value.metrics}
+          measured={session.value.measured}
+          affectedSide={session.value.affected_side}
+        />
+      )}
+      <ProblemBox problem={curves.problem} onRetry={curves.again} />
+      {curves.value && <SessionCurves curves={curves.value} />}
+      {events.value && <EventList events={events.value} />}
+    </main>
+  );
+}
+
+function Head({ session }: { session: SessionDetail }) {
+  const length = secondsBetween(session.started_at, session.ended_at);
+  const facts = [
+    [t("history.when"), dateAndTime(session.started_at)],
+    [t("history.duration"), length === null ? "–" : duration(length)],
+    [t("summary.affected"), t(`side.${session.affected_side}`)],
+    [t("summary.game"), gameName(session.game)],
+    [t("history.pain"), `${figure(session.pain_before)} → ${figure(session.pain_after)}`],
+    [t("summary.therapist"), session.therapist_name],
+  ] as const;
+  return (
+    <>
+      <div class="heading">
+        <h1>{t("summary.title", { name: session.patient_name })}</h1>
+        <a class="button" href={hrefOf({ page: "patient", id: session.patient_id })} data-testid="back-to-patient">
+          {t("summary.back")}
+        </a>
+      </div>
+      {session.status !== "ended" && <p class="notice">{t(`summary.status.${session.status}`)}</p>}
+      <dl class="facts card">
+        {facts.map(([name, value]) => (
+          <div key={name}>
+            <dt class="small soft">{name}</dt>
+            <dd>{value}</dd>
+          </div>
+        ))}
+      </dl>
+    </>
+  );
+}
+
+function gameName(name: string): string {
+  const key = `game.${name}`;
+  return isKey(key) ? t(key) : name;
+}
