@@ -76,7 +76,7 @@ class MetricBase(SQLModel):
     """One figure of a session; docs/metrics.md says how each is defined."""
 
     name: str = Field(max_length=60)
-    joint: str = Field(default="", max_length=40)
+    joint: str = Field(default="", max_length=160, description="Or the sensor, in a sensor's figures.")
     side: str = Field(default="", max_length=10)
     value: float | None = Field(description="Null where it could not be measured.")
     unit: str = Field(default="", max_length=20)

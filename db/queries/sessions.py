@@ -33,6 +33,11 @@ def find_session(session: Session, session_id: int) -> TherapySession | None:
     return session.get(TherapySession, session_id)
 
 
+def remove_session(session: Session, session_id: int) -> None:
+    """Forget a session, with its figures and events."""
+    session.execute(delete(TherapySession).where(col(TherapySession.id) == session_id))
+
+
 def sessions_left_open(session: Session) -> list[TherapySession]:
     """Sessions that a crash left open, or whose metrics could not be stored."""
     unfinished = (col(TherapySession.status) == SessionStatus.OPEN) | (col(TherapySession.measured).is_(False))
@@ -49,6 +54,12 @@ def add_event(session: Session, event: Event) -> Event:
 def events_of(session: Session, session_id: int) -> list[Event]:
     """What happened in a session, in order."""
     return list(session.exec(select(Event).where(Event.session_id == session_id).order_by(col(Event.id))))
+
+
+def last_event(session: Session, session_id: int, kind: str) -> Event | None:
+    """The newest event of a kind."""
+    found = select(Event).where(Event.session_id == session_id, Event.kind == kind).order_by(col(Event.id).desc())
+    return session.exec(found).first()
 
 
 def replace_metrics(session: Session, session_id: int, metrics: Iterable[Metric]) -> None:

@@ -226,3 +226,11 @@ class Station(BaseModel):
             ]
         }
     )
+
+
+class GamePublic(BaseModel):
+    """A game that can be chosen."""
+
+    name: str
+
+    model_config = ConfigDict(json_schema_extra={"examples": [{"name": "reach"}]})

@@ -1,20 +1,93 @@
-"""Everything that runs behind the application, gathered in one value."""
+"""Everything that runs behind the application: opened in order, closed in reverse."""
 
 from __future__ import annotations
 
+import asyncio
+from collections.abc import AsyncIterator
+from contextlib import AsyncExitStack, asynccontextmanager
 from dataclasses import dataclass
+from pathlib import Path
 
-from db.database import Database
-from server.api.auth import Auth
+from db.database import Database, open_database
+from server.api.auth import Auth, AuthSettings
+from server.api.data_folder import DATABASE
 from server.api.demo import Demo
+from server.api.forms import Station
+from server.api.journal import Journal
+from server.api.latency import LatencyMeter
+from server.api.limits import snapshots
+from server.api.recover import recover
+from server.api.relay import Relay
+from server.api.station_link import StationLink
 from server.api.therapy import Therapy
+from server.api.view3d import View3D
+from server.config import Config
+from server.messages import DriveState
+
+SIMULATED = "simulated"
+"""Name of the drive that moves nobody."""
 
 
 @dataclass(frozen=True, slots=True)
 class Service:
     """The parts of a running service."""
 
+    config: Config
     database: Database
     auth: Auth
     demo: Demo
+    link: StationLink
     therapy: Therapy
+    latency: LatencyMeter
+    relay: Relay
+    view3d: View3D
+
+
+@asynccontextmanager
+async def running_service(
+    config: Config, data: Path, auth_settings: AuthSettings, station: tuple[str, ...]
+) -> AsyncIterator[Service]:
+    """The service, while the block lasts.
+
+    Raises:
+        DatabaseError: the database cannot be opened.
+        MachineError: the station does not come up.
+    """
+    async with AsyncExitStack() as stack:
+        database = open_database(data / DATABASE)
+        stack.callback(database.close)
+        auth = Auth(database, auth_settings)
+        link = StationLink(config, data, station)
+        journal = Journal(database)
+        therapy = Therapy(config, data, database, link, journal)
+        latency = LatencyMeter()
+        relay = Relay(therapy, latency)
+        view3d = View3D(relay.viewers)
+        journal.start()
+        stack.push_async_callback(journal.close)
+        view3d.start()
+        stack.push_async_callback(view3d.close)
+        link.on_tick.append(relay.take)
+        stack.push_async_callback(link.close)
+        await link.open()
+        recovery = asyncio.create_task(recover(database, data, therapy), name="recover")
+        stack.callback(recovery.cancel)
+        demo = Demo(database, auth, config.demo and config.station.drive == SIMULATED)
+        yield Service(config, database, auth, demo, link, therapy, latency, relay, view3d)
+
+
+def describe_station(service: Service) -> Station:
+    """The real-time side as it stands."""
+    link = service.link
+    tick = link.latest
+    return Station(
+        up=link.up is not None,
+        ports={} if link.up is None else link.up.ports,
+        drive=service.config.station.drive,
+        simulated=service.config.station.drive == SIMULATED,
+        state=DriveState.OFF if tick is None else tick.state,
+        reason=link.trouble if tick is None else tick.reason,
+        restarts=link.restarts,
+        latency=service.latency.read(),
+        device=list(snapshots(service.config.station.device)),
+    )

@@ -107,7 +107,7 @@ def upgrade() -> None:
     op.create_table(
         "metric",
         sa.Column("name", sa.String(length=60), nullable=False),
-        sa.Column("joint", sa.String(length=40), nullable=False),
+        sa.Column("joint", sa.String(length=160), nullable=False),
         sa.Column("side", sa.String(length=10), nullable=False),
         sa.Column("value", sa.Float(), nullable=True),
         sa.Column("unit", sa.String(length=20), nullable=False),

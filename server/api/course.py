@@ -1,0 +1,116 @@
+"""The open session while it lasts: its phase and its game, stepped with every tick. No database, no clock."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from datetime import datetime
+from math import dist
+
+from fusion.skeleton import Side
+from games.catalogue import open_game
+from games.game import Game, GameInput, GameSettings, GameView, Workspace
+from server.api.live import SessionPhase, SessionView
+from server.messages import DemoGoal, DriveState, JointLimits, LiveTick
+
+_PHASES = {
+    DriveState.OFF: SessionPhase.PREPARING,
+    DriveState.READY: SessionPhase.PREPARING,
+    DriveState.ENGAGED: SessionPhase.RUNNING,
+    DriveState.HOLD: SessionPhase.HELD,
+    DriveState.FAULT: SessionPhase.STOPPED,
+    DriveState.STOPPED: SessionPhase.STOPPED,
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """What was decided when the session was opened."""
+
+    id: int
+    patient: str
+    affected_side: Side
+    game: str
+    seed: int
+    level: float
+    limits: tuple[JointLimits, ...]
+    soft_margin_rad: float
+    """The gate keeps commands so far inside the limits; targets must lie inside too."""
+    started: datetime
+    t_started_s: float
+    """Monotonic."""
+
+
+class Course:
+    """What has become of the plan so far."""
+
+    def __init__(self, plan: Plan) -> None:
+        self.plan = plan
+        self.saving = False
+        self.interrupted = False
+        self.picture: GameView | None = None
+        self._state = DriveState.OFF
+        self._t_s = plan.t_started_s
+        self._game: Game | None = None
+
+    def step(self, tick: LiveTick) -> GameView | None:
+        """Take a tick; the game's picture, None until the arm was first engaged."""
+        dt_s, self._t_s, self._state = max(0.0, tick.t_s - self._t_s), tick.t_s, tick.state
+        active = tick.state is DriveState.ENGAGED
+        if self._game is None and active:
+            self._game = _opened(self.plan, tick)
+        if self._game is not None and not self.saving:
+            hand = tick.affected.points_in_trunk[3]
+            self.picture = self._game.step(GameInput(dt_s=dt_s, hand=hand, active=active))
+        return self.picture
+
+    @property
+    def phase(self) -> SessionPhase:
+        """Where the session stands."""
+        if self.saving:
+            return SessionPhase.SAVING
+        return SessionPhase.INTERRUPTED if self.interrupted else _PHASES[self._state]
+
+    def view(self) -> SessionView:
+        """The session in a line."""
+        plan = self.plan
+        return SessionView(
+            id=plan.id,
+            patient=plan.patient,
+            game=plan.game,
+            affected_side=plan.affected_side,
+            started=plan.started,
+            elapsed_s=max(0.0, self._t_s - plan.t_started_s),
+            phase=self.phase,
+        )
+
+    def goal(self, tick: LiveTick) -> DemoGoal:
+        """Where the virtual patient's healthy hand should go: the mirror image of the target."""
+        playing = self.picture is not None and self.picture.phase == "playing" and tick.state is DriveState.ENGAGED
+        target = self.picture.targets[0].position if playing and self.picture and self.picture.targets else None
+        mirrored = None if target is None else (-target[0], target[1], target[2])
+        return DemoGoal(hand_in_trunk=mirrored, exo_rad=tick.exo.angle_rad)
+
+
+def _opened(plan: Plan, tick: LiveTick) -> Game:
+    return open_game(plan.game, _workspace(plan, tick), plan.seed, GameSettings(start_level=plan.level))
+
+
+def _workspace(plan: Plan, tick: LiveTick) -> Workspace:
+    shoulder, elbow, _, hand = tick.affected.points_in_trunk
+    ranges = {limits.joint: _inside(limits, plan.soft_margin_rad) for limits in plan.limits}
+    return Workspace(
+        side=plan.affected_side,
+        shoulder=shoulder,
+        upper_arm_m=dist(shoulder, elbow),
+        forearm_m=dist(elbow, hand),
+        plane_rad=ranges["plane"],
+        elevation_rad=ranges["elevation"],
+        rotation_rad=ranges["rotation"],
+        elbow_rad=ranges["elbow"],
+    )
+
+
+def _inside(limits: JointLimits, margin_rad: float) -> tuple[float, float]:
+    low, high = limits.min_rad + margin_rad, limits.max_rad - margin_rad
+    middle = (limits.min_rad + limits.max_rad) / 2
+    return (low, high) if low < high else (middle, middle)

@@ -1,0 +1,84 @@
+"""Lets logged-in pages through to viser: plain requests and its one WebSocket."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+
+import httpx
+from fastapi import APIRouter, HTTPException, Response, WebSocket, WebSocketDisconnect
+from fastapi.responses import RedirectResponse
+from websockets.asyncio.client import ClientConnection, connect
+from websockets.exceptions import ConnectionClosed, InvalidHandshake
+from websockets.typing import Subprotocol
+
+from server.api.deps import AccountDep, ServiceDep
+from server.api.guard import VIEW3D
+from server.api.race import until_first_ends
+from server.api.socket_gate import admit, watch_log_in
+
+_SHARE = b"ShareUrlRequest"
+"""viser would open a public tunnel to itself, past our log-in, for any page that asks; none may."""
+
+router = APIRouter(include_in_schema=False)
+
+_PASSED_ON = ("content-type", "content-encoding", "etag", "cache-control")
+
+
+@router.get(VIEW3D)
+async def without_slash(_: AccountDep) -> RedirectResponse:
+    """Viser's page finds its socket relative to the address with the slash."""
+    return RedirectResponse(f"{VIEW3D}/")
+
+
+@router.get(VIEW3D + "/{path:path}")
+async def page(path: str, _: AccountDep, service: ServiceDep) -> Response:
+    """Viser's own page."""
+    async with httpx.AsyncClient(base_url=f"http://127.0.0.1:{service.view3d.port}", trust_env=False) as client:
+        try:
+            request = client.build_request("GET", f"/{path}", headers={"accept-encoding": "gzip"})
+            answer = await client.send(request, stream=True)
+            content = b"".join([part async for part in answer.aiter_raw()])
+            await answer.aclose()
+        except httpx.HTTPError as error:
+            raise HTTPException(502, "the 3-D view does not answer") from error
+    headers = {name: answer.headers[name] for name in _PASSED_ON if name in answer.headers}
+    return Response(content, answer.status_code, headers)
+
+
+# viser's page opens its socket at the prefix itself, without a slash.
+@router.websocket(VIEW3D)
+@router.websocket(VIEW3D + "/{path:path}")
+async def socket(socket: WebSocket, path: str = "") -> None:
+    """Viser's socket, both ways, while the log-in lasts."""
+    service = await admit(socket)
+    if service is None:
+        return
+    asked = [Subprotocol(name) for name in socket.scope.get("subprotocols", [])]
+    # Without limits of our own: pictures are large, and both ends are ours.
+    opening = connect(
+        f"ws://127.0.0.1:{service.view3d.port}/",
+        subprotocols=asked or None,
+        compression=None,
+        max_size=None,
+        proxy=None,
+    )
+    try:
+        async with opening as viser_end:
+            await socket.accept(subprotocol=viser_end.subprotocol)
+            with suppress(WebSocketDisconnect, ConnectionClosed):
+                await until_first_ends(
+                    _to_viser(socket, viser_end), _to_page(viser_end, socket), watch_log_in(socket, service)
+                )
+    except (OSError, InvalidHandshake):
+        await socket.close(1011, "the 3-D view does not answer")
+
+
+async def _to_viser(page_end: WebSocket, viser_end: ClientConnection) -> None:
+    async for message in page_end.iter_bytes():
+        if _SHARE not in message:
+            await viser_end.send(message)
+
+
+async def _to_page(viser_end: ClientConnection, page_end: WebSocket) -> None:
+    async for message in viser_end:
+        await (page_end.send_text(message) if isinstance(message, str) else page_end.send_bytes(message))

@@ -1,0 +1,51 @@
+"""At start: sessions that a crash left open are closed, and what could not be measured then is measured now."""
+
+from __future__ import annotations
+
+import logging
+from datetime import UTC, datetime
+from pathlib import Path
+
+from fastapi.concurrency import run_in_threadpool
+
+from db.columns import now_utc
+from db.database import Database
+from db.errors import DatabaseError
+from db.queries import sessions
+from db.therapy_session import SessionStatus, TherapySession
+from server.api import session_store
+from server.api.therapy import Therapy
+
+log = logging.getLogger(__name__)
+
+
+async def recover(database: Database, data: Path, therapy: Therapy) -> None:
+    """Close and measure whatever the last run left behind. Never fails; what cannot be done is logged and stays."""
+    try:
+        left = await run_in_threadpool(_close_left_open, database, data)
+    except DatabaseError as error:
+        log.error("unfinished sessions could not be closed: %s", error)
+        return
+    for session_id in left:
+        await therapy.measure(session_id)
+
+
+def _close_left_open(database: Database, data: Path) -> list[int]:
+    with database.session() as session:
+        left = sessions.sessions_left_open(session)
+    for found in left:
+        if found.status is SessionStatus.OPEN:
+            ended_at = _last_written(data / found.recording) or now_utc()
+            session_store.finish(database, found.id or 0, SessionStatus.INTERRUPTED, ended_at, None)
+    return [found.id or 0 for found in left if _is_recorded(data, found)]
+
+
+def _is_recorded(data: Path, found: TherapySession) -> bool:
+    return (data / found.recording).is_file()
+
+
+def _last_written(recording: Path) -> datetime | None:
+    try:
+        return datetime.fromtimestamp(recording.stat().st_mtime, UTC)
+    except OSError:
+        return None

@@ -1,0 +1,120 @@
+"""A session's way into the database: plain functions, one transaction each, run in a worker thread."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from datetime import datetime
+
+from db.account import Account
+from db.database import Database
+from db.patient import Patient
+from db.queries import patients, sessions
+from db.therapy_session import (
+    AllLimits,
+    Metric,
+    MetricBase,
+    SessionDetail,
+    SessionPublic,
+    SessionStatus,
+    TherapySession,
+)
+from server import __version__
+from server.api.errors import not_found
+from server.api.forms import SessionOpen
+from server.api.journal import SCORE
+from server.api.limits import snapshots
+from server.api.measure import Score
+from server.messages import JointLimits
+
+
+def existing_patient(database: Database, patient_id: int) -> Patient:
+    """The patient of that number; 404 where there is none."""
+    with database.session() as session:
+        patient = patients.find_patient(session, patient_id)
+    if patient is None:
+        raise not_found("patient", patient_id)
+    return patient
+
+
+def existing_session(database: Database, session_id: int) -> TherapySession:
+    """The session of that number; 404 where there is none."""
+    with database.session() as session:
+        found = sessions.find_session(session, session_id)
+    if found is None:
+        raise not_found("session", session_id)
+    return found
+
+
+def begin(
+    database: Database, form: SessionOpen, account: Account, seed: int, limits: tuple[JointLimits, ...]
+) -> TherapySession:
+    """Store a session that begins now, and decide where it is recorded."""
+    with database.session() as session:
+        begun = sessions.add_session(
+            session,
+            TherapySession(
+                patient_id=form.patient_id,
+                therapist_id=account.id or 0,
+                affected_side=form.confirmed_affected_side,
+                game=form.game,
+                seed=seed,
+                level=form.level,
+                pain_before=form.pain_before,
+                limits=AllLimits(joints=snapshots(limits)),
+                version=__version__,
+            ),
+        )
+        begun.recording = f"recordings/session-{begun.id:06d}.mcap"
+        return begun
+
+
+def forget(database: Database, session_id: int) -> None:
+    """Take back a session that the station refused to open; nothing has happened in it."""
+    with database.session() as session:
+        sessions.remove_session(session, session_id)
+
+
+def finish(
+    database: Database, session_id: int, status: SessionStatus, ended_at: datetime, pain_after: int | None
+) -> None:
+    """Store that the session is over. Its metrics follow; until then it counts as unmeasured."""
+    with database.session() as session:
+        found = sessions.find_session(session, session_id)
+        if found is not None:
+            found.status, found.ended_at = status, ended_at
+            found.pain_after = pain_after if pain_after is not None else found.pain_after
+
+
+def store_metrics(database: Database, session_id: int, metrics: Iterable[MetricBase]) -> None:
+    """Store what the session measured."""
+    rows = [Metric(session_id=session_id, **metric.model_dump()) for metric in metrics]
+    with database.session() as session:
+        sessions.replace_metrics(session, session_id, rows)
+        found = sessions.find_session(session, session_id)
+        if found is not None:
+            found.measured = True
+
+
+def last_score(database: Database, session_id: int) -> Score:
+    """What the game had counted when it last noted its score."""
+    with database.session() as session:
+        noted = sessions.last_event(session, session_id, SCORE)
+    return Score() if noted is None else Score(noted.data.get("hits", 0), noted.data.get("misses", 0))
+
+
+def public(database: Database, session_id: int) -> SessionPublic:
+    """The session as the browser sees it; 404 where there is none."""
+    with database.session() as session:
+        found = sessions.public_session(session, session_id)
+    if found is None:
+        raise not_found("session", session_id)
+    return found
+
+
+def detail(database: Database, session_id: int) -> SessionDetail:
+    """The session with its figures; 404 where there is none."""
+    with database.session() as session:
+        found = sessions.session_detail(session, session_id)
+    if found is None:
+        raise not_found("session", session_id)
+    return found

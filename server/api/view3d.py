@@ -1,0 +1,79 @@
+"""The 3-D view: viser on this machine only, behind our own proxy and log-in; it works only while somebody looks."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from contextlib import redirect_stdout
+from io import StringIO
+
+import viser
+
+from server.api.newest import FanOut
+from server.api.view3d_scene import Scene, Shown
+from server.messages import LiveTick
+
+log = logging.getLogger(__name__)
+
+PERIOD_S = 1 / 30
+
+
+class View3D:
+    """viser's server with our scene, fed from the ticks.
+
+    Args:
+        ticks: where the ticks come from.
+    """
+
+    def __init__(self, ticks: FanOut[LiveTick]) -> None:
+        self._ticks = ticks
+        self._task: asyncio.Task[None] | None = None
+        self._server: viser.ViserServer | None = None
+        self.port = 0
+        """Port on the loopback address."""
+
+    def start(self) -> None:
+        """Open the server and begin to draw."""
+        # viser listens on every address unless told otherwise, and asks nobody for a log-in.
+        with redirect_stdout(StringIO()):  # it prints its own address, which nobody may use
+            self._server = viser.ViserServer(host="127.0.0.1", port=0, label="mirrorlimb", verbose=False)
+        self.port = self._server.get_port()
+        self._task = asyncio.create_task(self._draw(self._server), name="view3d")
+
+    async def close(self) -> None:
+        """Stop drawing and close the server."""
+        if self._task is not None:
+            self._task.cancel()
+            await asyncio.gather(self._task, return_exceptions=True)
+        if self._server is not None:
+            with redirect_stdout(StringIO()):
+                await asyncio.to_thread(self._server.stop)
+
+    async def _draw(self, server: viser.ViserServer) -> None:
+        server.gui.configure_theme(control_layout="collapsible", show_logo=False, show_share_button=False)
+        sensors = server.gui.add_checkbox("Sensors · 传感器", initial_value=True)
+        bounds = server.gui.add_checkbox("Bounds · 误差界", initial_value=False)
+        scene = Scene(server)
+        _place_camera(server)
+        with self._ticks.reading() as box:
+            while True:
+                tick = await box.take()
+                if server.get_clients():
+                    _show(server, scene, tick, Shown(sensors.value, bounds.value))
+                await asyncio.sleep(PERIOD_S)
+
+
+def _show(server: viser.ViserServer, scene: Scene, tick: LiveTick, shown: Shown) -> None:
+    try:
+        with server.atomic():
+            scene.show(tick, shown)
+    except Exception:
+        log.exception("a tick could not be drawn")
+
+
+def _place_camera(server: viser.ViserServer) -> None:
+    """Before the person, a little to the side and above, as somebody beside the reference sensor sees them."""
+    camera = server.initial_camera
+    camera.position = (-1.3, 0.8, -0.6)
+    camera.look_at = (0.0, -0.1, 2.0)
+    camera.up = (0.0, 1.0, 0.0)

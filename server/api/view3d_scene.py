@@ -1,0 +1,145 @@
+"""What is drawn in the 3-D view: batches of meshes that are made once and moved in place."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi
+
+import numpy as np
+import trimesh.creation
+import viser
+
+from fusion.skeleton import BONE_INDICES, JOINT_COUNT
+from server.api.view3d_shapes import Array, Placement, as_array, facing, place_balls, place_bones, place_bounds
+from server.messages import ArmView, LiveTick, SensorView
+
+Colour = tuple[int, int, int]
+
+SENSOR_COLOURS: tuple[Colour, ...] = ((214, 120, 40), (60, 140, 90), (150, 80, 170), (190, 160, 30))
+FUSED: Colour = (35, 60, 120)
+BOUND: Colour = (90, 140, 230)
+MIRRORED: Colour = (240, 170, 40)
+EXO: Colour = (30, 160, 200)
+FAINT = 0.35
+
+ARM_BONES = np.array([(0, 1), (1, 2), (2, 3)])
+NOWHERE = np.full((JOINT_COUNT, 3), np.nan, np.float32)
+NO_ARM = np.full((4, 3), np.nan, np.float32)
+
+_CYLINDER = trimesh.creation.cylinder(radius=1.0, height=1.0, sections=8)
+_BALL = trimesh.creation.icosphere(subdivisions=2, radius=1.0)
+
+
+class _Batch:
+    """Many copies of one mesh behind one handle: a handle per joint costs several times the time."""
+
+    def __init__(
+        self,
+        scene: viser.SceneApi,
+        name: str,
+        mesh: trimesh.Trimesh,
+        placed: Placement,
+        colour: Colour,
+        opacity: float | None = None,
+    ) -> None:
+        self.handle = scene.add_batched_meshes_simple(
+            name,
+            np.asarray(mesh.vertices, np.float32),
+            np.asarray(mesh.faces, np.uint32),
+            placed.wxyzs,
+            placed.positions,
+            batched_scales=placed.scales,
+            batched_colors=colour,
+            opacity=opacity,
+            lod="off",
+            cast_shadow=False,
+            receive_shadow=False,
+        )
+
+    def move(self, placed: Placement) -> None:
+        self.handle.batched_wxyzs = placed.wxyzs
+        self.handle.batched_positions = placed.positions
+        self.handle.batched_scales = placed.scales
+
+
+class _SensorFigure:
+    """One sensor: its own skeleton, faint, and where it stands."""
+
+    def __init__(self, scene: viser.SceneApi, number: int, name: str) -> None:
+        colour = SENSOR_COLOURS[number % len(SENSOR_COLOURS)]
+        root = f"/sensors/{number}"
+        nothing = place_bones(NOWHERE, BONE_INDICES, 0.012)
+        self._bones = _Batch(scene, f"{root}/bones", _CYLINDER, nothing, colour, FAINT)
+        self._camera = scene.add_camera_frustum(
+            f"{root}/camera", fov=pi / 3, aspect=1.2, scale=0.15, color=colour, visible=False
+        )
+        self._label = scene.add_label(f"{root}/camera/name", name)
+
+    def show(self, sensor: SensorView, visible: bool) -> None:
+        joints = as_array(sensor.joints_in_room) if sensor.joints_in_room else NOWHERE
+        self._bones.handle.visible = visible
+        self._bones.move(place_bones(joints, BONE_INDICES, 0.012))
+        self._camera.visible = visible and sensor.position_in_room is not None
+        if sensor.position_in_room is not None and np.isfinite(joints).any():
+            position = np.array(sensor.position_in_room, np.float32)
+            self._camera.position = position
+            self._camera.wxyz = facing(position, np.nanmean(joints, axis=0))
+
+
+@dataclass(frozen=True, slots=True)
+class Shown:
+    """What a person has switched on."""
+
+    sensors: bool
+    bounds: bool
+
+
+class Scene:
+    """The whole view. Everything is in the room's frame: y up, the reference sensor at its origin."""
+
+    def __init__(self, server: viser.ViserServer) -> None:
+        scene = self._scene = server.scene
+        scene.set_up_direction("+y")
+        scene.configure_environment_map(hdri=None)  # weak screens
+        scene.configure_default_lights(cast_shadow=False)
+        self._floor = scene.add_grid("/floor", 6.0, 6.0, plane="xz", position=(0.0, -1.0, 2.0), shadow_opacity=0.0)
+        self._bones = _Batch(scene, "/fused/bones", _CYLINDER, place_bones(NOWHERE, BONE_INDICES, 0.02), FUSED)
+        self._joints = _Batch(scene, "/fused/joints", _BALL, place_balls(NOWHERE, 0.028), FUSED)
+        self._bounds = _Batch(scene, "/bounds", _BALL, place_balls(NOWHERE, 0.1), BOUND, 0.18)
+        self._mirrored = _Batch(scene, "/mirrored", _CYLINDER, place_bones(NO_ARM, ARM_BONES, 0.03), MIRRORED, 0.55)
+        self._exo = _Batch(scene, "/exoskeleton", _CYLINDER, place_bones(NO_ARM, ARM_BONES, 0.04), EXO)
+        self._sensors: dict[str, _SensorFigure] = {}
+
+    def show(self, tick: LiveTick, shown: Shown) -> None:
+        """Move everything to where the tick says. Call it inside `atomic()`, so that no page sees half of it."""
+        for sensor in tick.sensors:
+            self._figure(sensor.sensor).show(sensor, shown.sensors)
+        joints = NOWHERE if tick.body is None else as_array(tick.body.joints_in_room)
+        self._bones.move(place_bones(joints, BONE_INDICES, 0.02))
+        self._joints.move(place_balls(joints, 0.028))
+        self._show_bounds(tick, joints, shown.bounds)
+        self._mirrored.move(place_bones(_points(tick.target), ARM_BONES, 0.03))
+        self._exo.move(place_bones(_points(tick.affected), ARM_BONES, 0.04))
+        self._lay_floor(joints)
+
+    def _figure(self, sensor: str) -> _SensorFigure:
+        if sensor not in self._sensors:
+            self._sensors[sensor] = _SensorFigure(self._scene, len(self._sensors), sensor)
+        return self._sensors[sensor]
+
+    def _show_bounds(self, tick: LiveTick, joints: Array, visible: bool) -> None:
+        self._bounds.handle.visible = visible
+        if visible and tick.body is not None:
+            self._bounds.move(place_bounds(joints, tick.body.shape_m2))
+
+    def _lay_floor(self, joints: Array) -> None:
+        """Under the lowest joint ever seen: no sensor tells where the floor is."""
+        if np.isfinite(joints).any():
+            lowest = float(np.nanmin(joints[:, 1]))
+            x, y, z = self._floor.position
+            if lowest < y:
+                self._floor.position = (x, lowest, z)
+
+
+def _points(arm: ArmView | None) -> Array:
+    return NO_ARM if arm is None or not arm.valid or arm.points_in_room is None else as_array(arm.points_in_room)

@@ -1,0 +1,227 @@
+"""A station made of paper: the real channels, an arm that does as it is told, and a way to make it die.
+
+Its patient's name decides how it misbehaves: "dies" ends the process when the session starts, "mute" never answers.
+"""
+
+import os
+import signal
+import sys
+import time
+from math import cos, sin
+from pathlib import Path
+
+import msgspec
+
+from fusion.recording.log import LogAbout, LogWriter
+from fusion.skeleton import JOINT_COUNT, Side
+from server.channels import StationChannels
+from server.config import read_start
+from server.messages import (
+    ArmView,
+    BodyView,
+    CloseSession,
+    DriveState,
+    Enable,
+    ExoView,
+    FollowBody,
+    Heartbeat,
+    Hold,
+    LiveTick,
+    OpenSession,
+    Reset,
+    Resume,
+    SensorView,
+    SessionClosed,
+    StateChanged,
+    StationUp,
+    Stop,
+    Timing,
+    WishAnswer,
+)
+
+PERIOD_S = 0.02
+ALLOWED = {
+    Enable: (DriveState.READY, DriveState.ENGAGED),
+    Hold: (DriveState.ENGAGED, DriveState.HOLD),
+    Resume: (DriveState.HOLD, DriveState.ENGAGED),
+    Reset: (DriveState.STOPPED, DriveState.READY),
+}
+
+
+def arm(angle, side):
+    x = 0.2 if side is Side.RIGHT else -0.2
+    hand = (x, -0.5 + 0.3 * angle, -0.3 - 0.1 * angle)
+    points = ((x, 0.0, 0.0), (x, -0.3, 0.0), (x, -0.4, -0.25), hand)
+    return ArmView(
+        plane_rad=angle,
+        elevation_rad=angle / 2,
+        rotation_rad=0.1,
+        elbow_rad=0.5 + angle / 4,
+        valid=True,
+        points_in_trunk=points,
+        points_in_room=points,
+    )
+
+
+def tick(index, t_s, state, session, healthy_side):
+    angle = 0.5 + 0.4 * sin(2 * t_s)
+    joints = tuple((0.1 * k, cos(k), 2.0) for k in range(JOINT_COUNT))
+    sensor = SensorView(
+        sensor="left",
+        dialect="mirrorlimb",
+        is_reference=True,
+        frames_per_s=30.0,
+        latency_s=0.004,
+        joints_tracked=25,
+        clock_offset_s=0.0,
+        residual_m=None,
+        aligned=True,
+        age_s=0.01,
+        refused_joints=0,
+        warnings=(),
+        position_in_room=(0.0, 0.0, 0.0),
+        joints_in_room=joints,
+    )
+    exo = ExoView(
+        angle_rad=(angle, angle / 2, 0.1, 0.5),
+        velocity_rad_s=(0.0,) * 4,
+        torque_nm=(0.0,) * 4,
+        command_rad=(angle, angle / 2, 0.1, 0.5),
+        command_velocity_rad_s=(0.0,) * 4,
+        clamped=(),
+        speed_factor=1.0,
+        blend=1.0,
+        fault="",
+    )
+    return LiveTick(
+        index=index,
+        t_s=t_s,
+        t_newest_received_s=t_s - 0.005,
+        state=state,
+        reason="",
+        may_enable=state is DriveState.READY,
+        blockers=(),
+        session=session,
+        healthy_side=healthy_side,
+        sensors=(sensor,),
+        body=BodyView(
+            joints_in_room=joints,
+            bound_m=(0.1,) * JOINT_COUNT,
+            shape_m2=((0.01, 0.0, 0.0, 0.01, 0.0, 0.01),) * JOINT_COUNT,
+            state=(2,) * JOINT_COUNT,
+        ),
+        healthy=arm(angle, healthy_side),
+        target=arm(angle, healthy_side.other),
+        affected=arm(angle, healthy_side.other),
+        exo=exo,
+        limits=(),
+        trunk_lean_m=0.01,
+        timing=Timing(
+            datagram_to_command_s=0.006,
+            tick_s=0.001,
+            overruns=0,
+            datagrams=1,
+            datagrams_refused=0,
+            ticks_dropped=0,
+            recorder_dropped=0,
+        ),
+        warnings=(),
+    )
+
+
+class Station:
+    def __init__(self, start):
+        self.channels = StationChannels(Path(start.channels))
+        self.state, self.session, self.healthy_side, self.log = DriveState.OFF, None, Side.RIGHT, None
+        self.greet()
+
+    def greet(self):
+        """Until somebody listens."""
+        dropped = -1
+        while dropped != self.channels.events_dropped:
+            dropped = self.channels.events_dropped
+            self.channels.tell(StationUp(t_s=time.monotonic(), ports={"any": 12345}, drive="simulated"))
+            time.sleep(0.01)
+
+    def answer(self, wish, accepted=True, reason=""):
+        answer = WishAnswer(
+            t_s=time.monotonic(), number=wish.number, accepted=accepted, reason=reason, state=self.state
+        )
+        self.channels.tell(answer)
+
+    def go(self, state, reason):
+        if state is not self.state:
+            changed = StateChanged(t_s=time.monotonic(), before=self.state, after=state, reason=reason)
+            self.state = state
+            self.channels.tell(changed)
+
+    def take(self, wish):
+        if isinstance(wish, Heartbeat) or (self.session and self.session.patient == "mute"):
+            return
+        if isinstance(wish, OpenSession):
+            self.open(wish)
+        elif isinstance(wish, CloseSession):
+            self.close(wish)
+        elif isinstance(wish, Stop):
+            self.go(DriveState.STOPPED, wish.reason)
+            self.answer(wish)
+        elif isinstance(wish, FollowBody):
+            self.answer(wish)
+        else:
+            self.move(wish)
+
+    def open(self, wish):
+        if wish.patient == "refused":
+            self.answer(wish, False, "the drive is being serviced")
+            return
+        self.session, self.healthy_side = wish, wish.healthy_side
+        self.log = LogWriter(Path(wish.recording), LogAbout(name=wish.session))
+        self.go(DriveState.READY, "a session is open")
+        self.answer(wish)
+
+    def close(self, wish):
+        closed, self.session = self.session, None
+        self.log.close()
+        self.log = None
+        self.go(DriveState.OFF, "the session is over")
+        self.answer(wish)
+        self.channels.tell(SessionClosed(t_s=time.monotonic(), session=closed.session, recording=closed.recording))
+
+    def move(self, wish):
+        if self.session.patient == "dies":
+            self.log.flush()
+            sys.stderr.write("the drive caught fire\n")
+            sys.stderr.flush()
+            os._exit(3)
+        needed, after = ALLOWED[type(wish)]
+        if self.state is needed:
+            self.go(after, "somebody wished it")
+            self.answer(wish)
+        else:
+            self.answer(wish, False, f"that is not possible while {self.state}")
+
+    def step(self, index):
+        for wish in (*self.channels.stops(), *self.channels.wishes()):
+            self.take(wish)
+        session = self.session.session if self.session else ""
+        made = tick(index, time.monotonic(), self.state, session, self.healthy_side)
+        if self.log:
+            self.log.tick(msgspec.msgpack.encode(made), made.t_s)
+        self.channels.publish(made)
+
+
+def main():
+    start = read_start(Path(sys.argv[sys.argv.index("--config") + 1]))
+    station = Station(start)
+    ended = []
+    signal.signal(signal.SIGTERM, lambda *_: ended.append(True))
+    index = 0
+    while not ended:
+        station.step(index)
+        index += 1
+        time.sleep(PERIOD_S)
+    station.channels.close()
+
+
+if __name__ == "__main__":
+    main()
