@@ -61,14 +61,14 @@ class GateConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_field
     """Blend-in from the measured position to the target (SR-6)."""
     soft_margin_rad: Radians = 0.1
     """Commands keep this far inside the patient's range (SR-1)."""
-    jerk_time_s: Seconds = 0.06
+    jerk_time_s: Seconds = 0.04
     """Time in which acceleration may go from none to its limit (SR-2)."""
 
 
 def _device_limits() -> tuple[JointLimits, ...]:
     ranges = ((-0.7, 2.3), (-0.1, 2.6), (-1.6, 1.6), (-0.1, 2.6))
     return tuple(
-        JointLimits(joint=joint, min_rad=low, max_rad=high, velocity_rad_s=3.0, acceleration_rad_s2=20.0)
+        JointLimits(joint=joint, min_rad=low, max_rad=high, velocity_rad_s=2.0, acceleration_rad_s2=10.0)
         for joint, (low, high) in zip(EXO_JOINTS, ranges, strict=True)
     )
 

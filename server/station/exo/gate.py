@@ -1,0 +1,141 @@
+"""The safety gate's states, and who may change them (SR-5): people go up, anything may go down.
+
+    off ──open──▶ ready ──enable──▶ engaged ◀──resume── hold
+                    ▲                  └──hold, lost sensors, silence──▶┘
+                    └──reset── stopped, fault (latched)
+
+The one exception is written in SR-5: a hold for lost sensors that ends soon, near the arm, resumes by itself.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Final
+
+from server.config import GateConfig
+from server.messages import CloseSession, DriveState, Enable, Hold, OpenSession, Reset, Resume, Stop, Wish
+
+OFF, READY, ENGAGED = DriveState.OFF, DriveState.READY, DriveState.ENGAGED
+HOLD, FAULT, STOPPED = DriveState.HOLD, DriveState.FAULT, DriveState.STOPPED
+
+TRANSITIONS: Final[dict[tuple[DriveState, type[Wish]], DriveState]] = {
+    (OFF, OpenSession): READY,
+    (READY, CloseSession): OFF,
+    (ENGAGED, CloseSession): OFF,
+    (HOLD, CloseSession): OFF,
+    (STOPPED, CloseSession): STOPPED,
+    (FAULT, CloseSession): FAULT,
+    (READY, Enable): ENGAGED,
+    (ENGAGED, Hold): HOLD,
+    (HOLD, Hold): HOLD,
+    (HOLD, Resume): ENGAGED,
+    (STOPPED, Reset): READY,
+    (FAULT, Reset): READY,
+    **{(state, Stop): STOPPED for state in DriveState},
+}
+"""Every wish that a state can grant, and the state it leads to; every other pair is refused."""
+
+_NAMES: Final[dict[type[Wish], str]] = {
+    OpenSession: "Opening a session",
+    CloseSession: "Closing the session",
+    Enable: "Enable",
+    Hold: "Hold",
+    Resume: "Resume",
+    Stop: "Stop",
+    Reset: "Reset",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class GateState:
+    """Where the gate stands."""
+
+    state: DriveState = OFF
+    reason: str = "no session is open"
+    since_s: float = 0.0
+    session_open: bool = False
+    lost: bool = False
+    """In hold for lost sensors, and for nothing else: may resume by itself (SR-5)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Facts:
+    """What the gate judges by in one tick."""
+
+    blockers: tuple[str, ...] = ()
+    """What forbids motion (SR-6, SR-10), in plain words; empty = it may begin."""
+    fault: str = ""
+    """What is wrong with drive or arm."""
+    silence: str = ""
+    """Why a person must look before it goes on: the service is silent, the loop stood still."""
+    lost: str = ""
+    """Why the healthy arm cannot be followed now (SR-4)."""
+    near: bool = False
+    """The target is within `GateConfig.resume_within_rad`."""
+
+    @property
+    def obstacles(self) -> tuple[str, ...]:
+        """Everything that keeps motion from beginning now."""
+        return tuple(filter(None, (self.fault, *self.blockers, self.silence, self.lost)))
+
+
+def wish(gate: GateState, wanted: Wish, facts: Facts, now_s: float) -> tuple[GateState, str]:
+    """What becomes of a person's wish.
+
+    Returns:
+        The gate afterwards, and why the wish was refused ("" = granted).
+    """
+    after = TRANSITIONS.get((gate.state, type(wanted)))
+    if after is None:
+        return gate, f"{_NAMES.get(type(wanted), 'That')} is not possible while the exoskeleton is '{gate.state}'."
+    refusal = _refusal(wanted, facts)
+    if refusal:
+        return gate, refusal
+    session_open = gate.session_open
+    if isinstance(wanted, OpenSession | CloseSession):
+        session_open = isinstance(wanted, OpenSession)
+    if after is READY and not session_open:
+        after = OFF
+    return GateState(after, _reason(after, wanted), now_s, session_open), ""
+
+
+def watch(gate: GateState, facts: Facts, config: GateConfig, now_s: float) -> GateState:
+    """What the tick's facts make of the gate: down at any time, up only out of a short loss (SR-5)."""
+    if facts.fault and gate.state in (READY, ENGAGED, HOLD):
+        return replace(gate, state=FAULT, reason=facts.fault, since_s=now_s, lost=False)
+    if gate.state is ENGAGED:
+        return _watch_engaged(gate, facts, now_s)
+    if gate.state is HOLD and gate.lost:
+        return _watch_lost(gate, facts, config, now_s)
+    return gate
+
+
+def _watch_engaged(gate: GateState, facts: Facts, now_s: float) -> GateState:
+    reason = facts.silence or facts.lost
+    if not reason:
+        return gate
+    return replace(gate, state=HOLD, reason=reason, since_s=now_s, lost=not facts.silence)
+
+
+def _watch_lost(gate: GateState, facts: Facts, config: GateConfig, now_s: float) -> GateState:
+    if facts.silence:
+        return replace(gate, reason=facts.silence, lost=False)
+    if now_s - gate.since_s > config.resume_within_s:
+        return replace(gate, reason=f"{gate.reason}; a person resumes", lost=False)
+    if facts.lost or facts.blockers or not facts.near:
+        return gate
+    return replace(gate, state=ENGAGED, reason="", since_s=now_s, lost=False)
+
+
+def _refusal(wanted: Wish, facts: Facts) -> str:
+    if isinstance(wanted, Enable | Resume):
+        return " ".join(facts.obstacles)
+    if isinstance(wanted, Reset):
+        return facts.fault
+    return ""
+
+
+def _reason(after: DriveState, wanted: Wish) -> str:
+    if isinstance(wanted, Stop | Hold):
+        return wanted.reason or f"{after} by a person"
+    return {OFF: "no session is open", READY: "waiting to be enabled"}.get(after, "")

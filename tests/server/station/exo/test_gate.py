@@ -1,0 +1,151 @@
+"""The gate's states: every transition, and every other pair refused (SR-5)."""
+
+from __future__ import annotations
+
+import itertools
+
+import pytest
+
+from fusion.skeleton import Side
+from server.config import GateConfig
+from server.messages import (
+    CloseSession,
+    DriveState,
+    Enable,
+    FollowBody,
+    Hold,
+    OpenSession,
+    Reset,
+    Resume,
+    Stop,
+    Wish,
+)
+from server.station.exo import gate
+from server.station.exo.gate import TRANSITIONS, Facts, GateState
+
+CONFIG = GateConfig()
+WISHES: tuple[Wish, ...] = (
+    OpenSession(
+        number=1,
+        session="1",
+        patient="P",
+        healthy_side=Side.LEFT,
+        side_confirmed=True,
+        limits=(),
+        limits_set_by="t",
+        recording="",
+    ),
+    CloseSession(number=2),
+    Enable(number=3),
+    Hold(number=4, reason="a pause"),
+    Resume(number=5),
+    Stop(number=6, reason="pain"),
+    Reset(number=7),
+    FollowBody(number=8, sensor="s", body="b"),
+)
+PAIRS = list(itertools.product(DriveState, WISHES))
+OPEN = {state: state is not DriveState.OFF for state in DriveState}
+
+
+def _at(state: DriveState, session_open: bool = True) -> GateState:
+    return GateState(state=state, reason="as given", since_s=0.0, session_open=session_open)
+
+
+@pytest.mark.parametrize(("state", "wish"), [p for p in PAIRS if (p[0], type(p[1])) in TRANSITIONS])
+def test_sr5_every_listed_wish_leads_where_the_table_says(state: DriveState, wish: Wish) -> None:
+    after, refusal = gate.wish(_at(state, OPEN[state]), wish, Facts(), 1.0)
+    assert refusal == ""
+    assert after.state is TRANSITIONS[state, type(wish)]
+
+
+@pytest.mark.parametrize(("state", "wish"), [p for p in PAIRS if (p[0], type(p[1])) not in TRANSITIONS])
+def test_sr5_every_other_wish_is_refused_and_changes_nothing(state: DriveState, wish: Wish) -> None:
+    before = _at(state)
+    after, refusal = gate.wish(before, wish, Facts(), 1.0)
+    assert after is before
+    assert state.value in refusal
+
+
+@pytest.mark.parametrize("state", [DriveState.STOPPED, DriveState.FAULT])
+def test_sr5_reset_never_enables_and_without_a_session_leads_to_off(state: DriveState) -> None:
+    assert gate.wish(_at(state), Reset(number=1), Facts(), 1.0)[0].state is DriveState.READY
+    assert gate.wish(_at(state, session_open=False), Reset(number=1), Facts(), 1.0)[0].state is DriveState.OFF
+
+
+def test_sr5_reset_is_refused_while_the_fault_lasts() -> None:
+    after, refusal = gate.wish(_at(DriveState.FAULT), Reset(number=1), Facts(fault="The motor is hot."), 1.0)
+    assert (after.state, refusal) == (DriveState.FAULT, "The motor is hot.")
+
+
+def test_sr5_a_session_that_closes_while_stopped_leaves_the_stop_latched() -> None:
+    closed, _ = gate.wish(_at(DriveState.STOPPED), CloseSession(number=1), Facts(), 1.0)
+    assert closed.state is DriveState.STOPPED
+    assert gate.wish(closed, Reset(number=2), Facts(), 2.0)[0].state is DriveState.OFF
+
+
+@pytest.mark.parametrize("wish", [Enable(number=1), Resume(number=1)])
+@pytest.mark.parametrize(
+    "facts", [Facts(blockers=("No.",)), Facts(lost="No."), Facts(silence="No."), Facts(fault="No.")]
+)
+def test_sr10_neither_enable_nor_resume_is_granted_while_anything_is_missing(wish: Wish, facts: Facts) -> None:
+    state = DriveState.READY if isinstance(wish, Enable) else DriveState.HOLD
+    after, refusal = gate.wish(_at(state), wish, facts, 1.0)
+    assert (after.state, refusal) == (state, "No.")
+
+
+@pytest.mark.parametrize("state", [DriveState.READY, DriveState.ENGAGED, DriveState.HOLD])
+def test_sr5_a_fault_latches_from_every_live_state(state: DriveState) -> None:
+    after = gate.watch(_at(state), Facts(fault="The motor is hot."), CONFIG, 1.0)
+    assert after.state is DriveState.FAULT
+    assert gate.watch(after, Facts(near=True), CONFIG, 100.0).state is DriveState.FAULT
+
+
+@pytest.mark.parametrize("state", [s for s in DriveState if s is not DriveState.ENGAGED])
+def test_sr5_nothing_enables_itself(state: DriveState) -> None:
+    before = _at(state)
+    for t in range(100):
+        assert gate.watch(before, Facts(near=True), CONFIG, t / 10).state is state
+
+
+def _lost_at(t_s: float) -> GateState:
+    return gate.watch(_at(DriveState.ENGAGED), Facts(lost="No sensor."), CONFIG, t_s)
+
+
+def test_sr4_lost_sensors_hold() -> None:
+    assert _lost_at(1.0).state is DriveState.HOLD
+    assert _lost_at(1.0).reason == "No sensor."
+
+
+def test_sr5_a_short_loss_near_the_arm_resumes_by_itself() -> None:
+    assert gate.watch(_lost_at(1.0), Facts(near=True), CONFIG, 2.9).state is DriveState.ENGAGED
+
+
+@pytest.mark.parametrize(
+    "facts", [Facts(near=False), Facts(near=True, blockers=("Limits.",)), Facts(near=True, lost="Still.")]
+)
+def test_sr5_a_short_loss_far_from_the_arm_or_with_a_blocker_stays(facts: Facts) -> None:
+    assert gate.watch(_lost_at(1.0), facts, CONFIG, 2.0).state is DriveState.HOLD
+
+
+def test_sr5_a_loss_longer_than_two_seconds_needs_a_person() -> None:
+    held = gate.watch(_lost_at(1.0), Facts(near=True), CONFIG, 3.1)
+    assert held.state is DriveState.HOLD
+    assert "a person resumes" in held.reason
+    assert gate.watch(held, Facts(near=True), CONFIG, 3.2).state is DriveState.HOLD
+    assert gate.wish(held, Resume(number=1), Facts(near=True), 4.0)[0].state is DriveState.ENGAGED
+
+
+def test_sr5_a_persons_hold_during_a_loss_is_not_resumed_by_itself() -> None:
+    held, _ = gate.wish(_lost_at(1.0), Hold(number=1, reason="a pause"), Facts(), 1.5)
+    assert gate.watch(held, Facts(near=True), CONFIG, 1.6).state is DriveState.HOLD
+
+
+def test_sr9_a_silent_service_holds_until_a_person_resumes() -> None:
+    held = gate.watch(_at(DriveState.ENGAGED), Facts(silence="The service is silent."), CONFIG, 1.0)
+    assert held.state is DriveState.HOLD
+    assert gate.watch(held, Facts(near=True), CONFIG, 1.1).state is DriveState.HOLD
+
+
+def test_sr9_silence_during_a_loss_takes_the_right_to_resume_by_itself() -> None:
+    held = gate.watch(_lost_at(1.0), Facts(silence="The service is silent."), CONFIG, 1.1)
+    assert gate.watch(held, Facts(near=True), CONFIG, 1.2).state is DriveState.HOLD
