@@ -13,6 +13,7 @@ from time import perf_counter
 import numpy as np
 
 from fusion.align.alignment import SensorAlignment, reference_alignment
+from fusion.align.identity import trunk_centre
 from fusion.align.whole import Aligned, align_streams
 from fusion.errors import InputError, RecordingError
 from fusion.messages import Floats, FusedFrame, JointAngles, MirrorTarget, SkeletonSample, States
@@ -21,6 +22,7 @@ from fusion.recording.recording import Recording, SkeletonStream
 from fusion.skeleton import JOINT_COUNT, Side
 
 GRID_HZ = 30.0
+START_S = 0.3
 Progress = Callable[[float], None]
 """Told the share done, 0 to 1."""
 
@@ -108,6 +110,8 @@ def fuse_recording(
     pipeline = Pipeline(PipelineSettings(side, method, chosen, known.alignments if known else None))
     used = [stream for name, stream in streams.items() if only_sensor in (None, name)]
     used = [stream for stream in used if known is None or stream.sensor not in known.faults]
+    first = next((stream for stream in used if stream.sensor == chosen), used[0])
+    pipeline.follow(first.sensor, _nearest_at_start(first))
     grid = _grid(streams[chosen])
     told = list(_run(pipeline, _in_order(used, known, chosen), grid, progress))
     timings = Timings(float(grid[-1] - grid[0]), aligned - started, perf_counter() - aligned)
@@ -146,6 +150,18 @@ def _named(recording: Recording, sensor: str) -> str:
     if sensor not in names:
         raise InputError(f"recording '{recording.name}' has no sensor '{sensor}'", f"one of {', '.join(names)}")
     return sensor
+
+
+def _nearest_at_start(stream: SkeletonStream) -> str:
+    """The body nearest to the lens when the stream begins: nobody is there to say who the patient is."""
+    start_s = stream.samples[0].t_s
+    first = [sample for sample in stream.samples if sample.t_s < start_s + START_S]
+
+    def distance(sample: SkeletonSample) -> float:
+        away = float(np.linalg.norm(trunk_centre(sample.positions_in_sensor, sample.state)))
+        return away if np.isfinite(away) else np.inf
+
+    return min(first, key=distance).body
 
 
 def _grid(stream: SkeletonStream) -> Floats:

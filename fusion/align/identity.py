@@ -2,7 +2,8 @@
 
 Body numbers say nothing across sensors, change when somebody is lost, and are reused. So a number is believed only
 while the body that wears it moves as a person can; otherwise the place decides: nearest to where the patient was, or,
-as long as nobody is known, nearest to the lens. A person's choice goes before everything.
+as long as nobody is known, nearest to the lens. Whoever was seen beside the patient is somebody else, also when the
+patient is hidden and they stand where the patient was. A person's choice goes before everything.
 """
 
 from __future__ import annotations
@@ -18,6 +19,9 @@ from fusion.skeleton import INDEX
 TRUNK = [INDEX[name] for name in ("SpineBase", "SpineMid", "SpineShoulder", "Neck", "ShoulderLeft", "ShoulderRight")]
 ALIVE_S = 0.5
 """A followed body that was not seen for this long may be replaced."""
+BESIDE_S = 0.1
+"""Two bodies seen within this time are two people."""
+VISIBLE_S = 0.3
 LOOK_AROUND_S = 0.1
 """A sensor that starts is watched this long before its nearest body is chosen."""
 REACH_M, SPEED_M_S, FURTHEST_M = 0.5, 2.0, 1.5
@@ -58,7 +62,15 @@ class _View:
 
     since_s: float
     seen: dict[str, Sighting] = field(default_factory=dict)
+    others: set[str] = field(default_factory=set)
+    """Bodies that were seen beside the followed one."""
     followed: str | None = None
+
+    def choose(self, body: str | None) -> None:
+        """Follow another body."""
+        if body != self.followed:
+            self.followed = body
+            self.others.clear()
 
 
 def trunk_centre(positions: Floats, state: States) -> Floats:
@@ -81,13 +93,13 @@ class PatientFinder:
     def follow(self, sensor: str, body: str) -> None:
         """A person's choice: this body is the patient. The other sensors find the same person by place."""
         for view in self._views.values():
-            view.followed = None
-        self._views.setdefault(sensor, _View(-np.inf)).followed = body
+            view.choose(None)
+        self._views.setdefault(sensor, _View(-np.inf)).choose(body)
 
     def prefer(self, sensor: str, body: str) -> None:
         """Follow this body in one sensor, because it moves as the patient does in the reference."""
         if sensor in self._views:
-            self._views[sensor].followed = body
+            self._views[sensor].choose(body)
 
     def followed(self, sensor: str) -> str | None:
         """The body followed in a sensor."""
@@ -109,11 +121,18 @@ class PatientFinder:
         view = self._views.setdefault(sample.sensor, _View(t_s))
         before = view.seen.get(sample.body)
         view.seen[sample.body] = Sighting(sample.body, t_s, centre)
-        if before is not None and _jumped(before, view.seen[sample.body]) and view.followed == sample.body:
-            view.followed = None
-        if view.followed is None or _gone(view, t_s):
-            view.followed = _choose(view, t_s, expected()) or view.followed
+        if before is not None and _jumped(before, view.seen[sample.body]):
+            view.others.discard(sample.body)
+            view.followed = None if view.followed == sample.body else view.followed
+        self._decide(view, sample.body, t_s, expected)
         return view.followed == sample.body
+
+    def _decide(self, view: _View, body: str, t_s: float, expected: Callable[[], Expected | None]) -> None:
+        """Keep the followed body while it lives, and remember who is beside it; else choose anew."""
+        if view.followed is None or _unseen_s(view, t_s) > ALIVE_S:
+            view.followed = _choose(view, t_s, expected()) or view.followed
+        elif body != view.followed and _unseen_s(view, t_s) < BESIDE_S:
+            view.others.add(body)
 
 
 def _jumped(before: Sighting, now: Sighting) -> bool:
@@ -123,14 +142,16 @@ def _jumped(before: Sighting, now: Sighting) -> bool:
     return dt < ALIVE_S and moved > JUMP_M + JUMP_SPEED_M_S * max(dt, 0.0)
 
 
-def _gone(view: _View, t_s: float) -> bool:
+def _unseen_s(view: _View, t_s: float) -> float:
+    """For how long the followed body has not been seen; 0 where a person chose it and it has not come yet."""
     last = view.seen.get(view.followed or "")
-    return last is not None and t_s - last.t_s > ALIVE_S
+    return 0.0 if last is None else t_s - last.t_s
 
 
 def _choose(view: _View, t_s: float, expected: Expected | None) -> str | None:
     """The visible body that is most likely the patient; None while nobody may be."""
-    visible = [seen for seen in view.seen.values() if t_s - seen.t_s < 3 * LOOK_AROUND_S]
+    recent = (seen for seen in view.seen.values() if t_s - seen.t_s < VISIBLE_S)
+    visible = [seen for seen in recent if seen.body not in view.others]
     if expected is not None:
         visible = [seen for seen in visible if expected.admits(seen.centre_in_sensor)]
         origin = expected.centre_in_sensor

@@ -20,10 +20,10 @@ MEMORY_S = 60.0
 """Settled frames fade with this time constant, so that a tripod that sinks or a clock that drifts is followed."""
 LONGEST_OFFSET_S = 0.5
 """Live, the receive clock is common; what is left is the difference of two senders' delays."""
-LEARNING_FRAMES = 120
+LEARNING_FRAMES = 60
 """Reference frames looked at in one go: what a tick can afford."""
 FEWEST_FRAMES = 30
-LARGEST_ROTATION_STD_RAD = np.radians(3.0)
+LARGEST_ROTATION_STD_RAD = np.radians(4.0)
 LARGEST_POSITION_STD_M = 0.03
 LARGEST_RESIDUAL_M = 0.12
 MOVED_FACTOR, MOVED_LEAST_M, MOVED_AFTER_S = 3.0, 0.15, 1.5
@@ -68,10 +68,10 @@ class AlignmentLearner:
 
     def _search(self, reference: BodyTrack, sensor: BodyTrack) -> None:
         """Look for mounting and offset from nothing."""
-        found = fit_space_time(reference.thinned(LEARNING_FRAMES), sensor, LONGEST_OFFSET_S, candidates=2)
+        found = fit_space_time(reference.thinned(LEARNING_FRAMES), sensor, LONGEST_OFFSET_S, candidates=2, rounds=4)
         if found is None or found.frames < FEWEST_FRAMES:
             return
-        pairs = pair(reference.thinned(40), sensor, found.clock_offset_s)
+        pairs = pair(reference.thinned(LEARNING_FRAMES // 2), sensor, found.clock_offset_s)
         self.fault = handedness_fault(pairs)
         if self.fault is None and trusted(found):
             self.alignment, self.moved = found, False

@@ -2,8 +2,9 @@
 
 The rotation solves Wahba's problem, ``min Σ w |r - R s - T|²``, in closed form (Kabsch 1976; Umeyama, IEEE PAMI 13(4),
 1991): with H = Σ w (r - r̄)(s - s̄)', R is the rotation nearest to H and T = r̄ - R s̄. Only sums enter, so they can
-be added up frame by frame, forgotten, and joined in any order. Robustness is Tukey's biweight, its width annealed from
-wide to narrow so that the start does not matter (graduated non-convexity).
+be added up frame by frame, forgotten, and joined in any order. Robustness is Huber's weight, which lets a joint that
+errs systematically count a little, times Tukey's biweight, which cuts a lost one off; the biweight's width is annealed
+from wide to narrow so that the start does not matter (graduated non-convexity).
 """
 
 from __future__ import annotations
@@ -17,10 +18,15 @@ from fusion.geometry import nearest_rotation
 from fusion.messages import Floats
 from fusion.skeleton import SIDES_SWAPPED
 
-TUKEY_WIDTHS = 4.8
-"""Cut-off in median distances: 4.685 standard deviations keep 95 % efficiency on a normal error."""
-NARROWEST_M = 0.01
-"""The cut-off never gets narrower than a centimetre, so that clean data are not cut to nothing."""
+HUBER_WIDTHS = 1.0
+"""In median distances: half of the joints count fully. Found to agree best with fits to truth of every kind."""
+TUKEY_WIDTHS = 25.0
+"""In median distances: what is further off than this is not that joint."""
+NARROWEST_M = 0.002
+"""A median is never taken for smaller than this, so that clean data are not cut to nothing."""
+MOST_ROUNDS = 40
+SETTLED = 1e-5
+"""Radians and metres: no sensor is mounted more exactly."""
 POINTS_PER_INDEPENDENT = 100.0
 """A skeleton's joints err together and for a second or so: this many points count as one when a deviation is stated."""
 
@@ -100,9 +106,13 @@ class Mounting:
 
 def mounting(moments: Moments) -> Mounting:
     """The mounting that fits the sums best, and how well they determine it."""
-    rotation = nearest_rotation(moments.cross)
-    translation = moments.mean_reference - rotation @ moments.mean_sensor
+    rotation, translation = _closed_form(moments)
     return Mounting(rotation, translation, *_deviations(moments, rotation))
+
+
+def _closed_form(moments: Moments) -> tuple[Floats, Floats]:
+    rotation = nearest_rotation(moments.cross)
+    return rotation, moments.mean_reference - rotation @ moments.mean_sensor
 
 
 def _deviations(moments: Moments, rotation: Floats) -> tuple[float, float]:
@@ -173,24 +183,28 @@ def _moments(pairs: Pairs, weight: Floats) -> Moments:
 
 
 def _anneal(pairs: Pairs, weight: Floats, base: Moments, start: Mounting) -> RobustFit:
-    """Iterate Tukey weights and the closed form, halving the cut-off down to its final width."""
+    """Iterate weights and the closed form, halving the cut-off down to its final width."""
     used = weight.ravel() > 0
-    r, s = pairs.reference.reshape(-1, 3)[used], pairs.sensor.reshape(-1, 3)[used]
-    given = weight.ravel()[used]
-    now, cutoff, kept, median = start, np.inf, given, 0.0
-    for _ in range(40):
-        distance = np.linalg.norm(r - (s @ now.rotation.T + now.translation_m), axis=1)
+    r, s, given = pairs.reference.reshape(-1, 3)[used], pairs.sensor.reshape(-1, 3)[used], weight.ravel()[used]
+    rotation, translation, cutoff, sums = start.rotation, start.translation_m, np.inf, base
+    kept, median = given, 0.0
+    for _ in range(MOST_ROUNDS):
+        error = r - (s @ rotation.T + translation)
+        distance = np.sqrt(np.einsum("ni,ni->n", error, error))
         median = float(np.median(distance)) if distance.size else 0.0
-        wanted = max(TUKEY_WIDTHS * median, NARROWEST_M)
-        cutoff = max(wanted, cutoff / 2 if np.isfinite(cutoff) else 2 * float(distance.max(initial=wanted)))
+        scale = max(median, NARROWEST_M)
+        wanted = TUKEY_WIDTHS * scale
+        cutoff = max(wanted, min(cutoff / 2, 2 * float(distance.max(initial=wanted))))
         kept = given * np.clip(1 - (distance / cutoff) ** 2, 0, None) ** 2
-        before, now = now, mounting(base.joined(Moments.of(r, s, kept)))
-        if cutoff <= 1.01 * wanted and _same(before, now):
+        kept = kept * np.minimum(1, HUBER_WIDTHS * scale / np.maximum(distance, 1e-9))
+        sums = base.joined(Moments.of(r, s, kept))
+        before, (rotation, translation) = (rotation, translation), _closed_form(sums)
+        if cutoff <= 1.01 * wanted and _same(before, (rotation, translation)):
             break
     full = np.zeros(weight.size)
     full[used] = kept
-    return RobustFit(now, full.reshape(weight.shape), median, cutoff, np.zeros(len(weight), dtype=bool))
+    return RobustFit(mounting(sums), full.reshape(weight.shape), median, cutoff, np.zeros(len(weight), dtype=bool))
 
 
-def _same(a: Mounting, b: Mounting) -> bool:
-    return bool(np.abs(a.rotation - b.rotation).max() < 1e-6 and np.abs(a.translation_m - b.translation_m).max() < 1e-6)
+def _same(a: tuple[Floats, Floats], b: tuple[Floats, Floats]) -> bool:
+    return all(bool(np.abs(x - y).max() < SETTLED) for x, y in zip(a, b, strict=True))

@@ -62,7 +62,7 @@ def offset_step(pairs: Pairs, under: Mounting, weight: np.ndarray) -> OffsetStep
 
 
 def fit_space_time(
-    reference: BodyTrack, sensor: BodyTrack, longest_s: float = np.inf, candidates: int = 5
+    reference: BodyTrack, sensor: BodyTrack, longest_s: float = np.inf, candidates: int = 5, rounds: int = 10
 ) -> SensorAlignment | None:
     """Mounting and clock offset of a sensor from everything two tracks hold; None where they never saw a body together.
 
@@ -74,6 +74,7 @@ def fit_space_time(
         sensor: the same person as the other sensor saw them, on its own clock.
         longest_s: the largest absolute offset to consider.
         candidates: how many offsets to try.
+        rounds: how often at most to alternate between mounting and offset.
     """
     if min(len(reference.t_s), len(sensor.t_s)) < FEWEST_FRAMES:
         return None
@@ -81,7 +82,7 @@ def fit_space_time(
     starts = offset_candidates(reference, sensor, longest_s, candidates) or (OffsetCandidate(0.0, 1.0),)
     few = thin.thinned(MOST_FRAMES // 4)
     best = min(starts, key=lambda start: _unlikeness(refine(few, sensor, start.offset_s, rounds=2), start))
-    return refine(thin, sensor, best.offset_s, rounds=10)
+    return refine(thin, sensor, best.offset_s, rounds)
 
 
 def _unlikeness(found: SensorAlignment | None, start: OffsetCandidate) -> float:
