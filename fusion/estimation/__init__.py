@@ -11,6 +11,9 @@ from typing import Final
 from fusion.estimation.average import Average
 from fusion.estimation.estimator import Estimator
 from fusion.estimation.kalman import Kalman
+from fusion.estimation.set_membership import SetMembership
 
-METHODS: Final[dict[str, Callable[[], Estimator]]] = {method.name: method for method in (Kalman, Average)}
-"""Every method by the name that `--method` takes."""
+METHODS: Final[dict[str, Callable[[], Estimator]]] = {
+    method.name: method for method in (SetMembership, Kalman, Average)
+}
+"""Every method by the name that `--method` takes; the first is the default."""

@@ -49,8 +49,8 @@ def predict(track: Track, t_s: float) -> Track:
     Q = q [[dt³/3, dt²/2], [dt²/2, dt]]. The covariance grows through the whole silence, the mean does not fly off.
     """
     dt = t_s - track.t_s
-    if dt <= 0:
-        return track
+    if not 0 < dt < np.inf:  # an older sample, or the very first
+        return replace(track, t_s=max(t_s, track.t_s))
     moving_s = seconds_in_motion(track.seen_s, track.t_s, t_s)[:, None]
     q = ACCELERATION_DENSITY
     return Track(
@@ -64,10 +64,17 @@ def predict(track: Track, t_s: float) -> Track:
     )
 
 
+def carried_on(track: Track, positions: Floats, t_s: float) -> Floats:
+    """(J, 3) m, positions measured at `t_s`, a little before the track's own time, moved on with its velocity."""
+    late_s = max(track.t_s - t_s, 0.0)
+    return positions + np.where(np.isfinite(track.position), track.velocity, 0.0) * late_s
+
+
 def distance_squared(track: Track, positions: Floats, variance: Floats) -> Floats:
     """(J,) squared distance of a measurement from its prediction in standard deviations, d' S^-1 d."""
     innovation = positions - track.position
-    return np.einsum("jk,jk->j", innovation, innovation) / (track.pp + variance)
+    squared: Floats = np.einsum("jk,jk->j", innovation, innovation)
+    return squared / (track.pp + variance)
 
 
 def correct(track: Track, positions: Floats, variance: Floats, used: Flags) -> Track:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar, Final
 
 import numpy as np
@@ -69,6 +69,7 @@ class Kalman(Estimator):
 def _take(state: KalmanState, sample: AlignedSample) -> tuple[KalmanState, tuple[Refusal, ...]]:
     track = gated_filter.predict(state.track, sample.t_s)
     measured = read(sample)
+    measured = replace(measured, positions=gated_filter.carried_on(track, measured.positions, sample.t_s))
     variance = np.where(measured.tracked, TRACKED_STD_M**2, INFERRED_STD_M**2)
     near, refused_since_s = _gate(state, track, measured, variance)
     begin = measured.given & ~near & (track.t_s - refused_since_s >= RESTART_AFTER_S)

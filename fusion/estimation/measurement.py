@@ -31,4 +31,5 @@ def read(sample: AlignedSample) -> Measurement:
 
 def is_given(positions: Floats, state: States) -> Flags:
     """(J,) whether a joint is tracked or inferred, at a finite place."""
-    return (state != TrackingState.LOST) & np.isfinite(positions).all(axis=-1)
+    given: Flags = (state != TrackingState.LOST) & np.isfinite(positions).all(axis=-1)
+    return given
