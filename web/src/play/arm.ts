@@ -3,6 +3,7 @@ import { Color, Group, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial, To
 import { handGeometry, type Side, WRIST_HALF_M } from "./hand-shape";
 import { type ArmPose, backOfHand, forearmOf, handDirectionOf } from "./limb-line";
 import { LimbTube, profile } from "./limb-tube";
+import { TableShadow } from "./table-shadow";
 
 const SKIN = new Color("#d39a74");
 const SLEEVE = new Color("#2c6f8f");
@@ -19,9 +20,10 @@ const SKIN_PROFILE = profile([
   [2.02, ...WRIST],
 ]);
 const SLEEVE_PROFILE = profile([
-  [-0.12, 0.02, 0.02],
-  [-0.1, 0.058, 0.058],
-  [0.1, 0.066, 0.066],
+  [-0.2, 0.001, 0.001],
+  [-0.16, 0.035, 0.035],
+  [-0.08, 0.058, 0.058],
+  [0.1, 0.062, 0.062],
   [0.5, 0.059, 0.059],
   [0.9, 0.055, 0.054],
   [1.1, 0.057, 0.056],
@@ -41,6 +43,7 @@ export class Arm {
   private readonly sleeve = new LimbTube(SLEEVE_PROFILE);
   private readonly hand: Mesh;
   private readonly band: Mesh;
+  private readonly shadow: TableShadow | null = null;
 
   constructor(
     readonly side: Side,
@@ -52,12 +55,14 @@ export class Arm {
     const skin = new Mesh(this.skin.geometry, material(SKIN));
     const sleeve = new Mesh(this.sleeve.geometry, material(SLEEVE));
     for (const part of [skin, sleeve, this.hand, this.band]) {
-      part.castShadow = look === "solid";
       // Its vertices move every frame; the bounds computed at the start would hide it.
       part.frustumCulled = false;
       part.renderOrder = look === "solid" ? 0 : 5;
       this.group.add(part);
     }
+    if (look === "ghost") return;
+    this.shadow = new TableShadow([skin, sleeve, this.hand]);
+    this.group.add(this.shadow.group);
   }
 
   /** Puts the arm where its four points are in the trunk frame. */
@@ -72,6 +77,8 @@ export class Arm {
     place(this.band, pose.wrist.clone().addScaledVector(forearm, -0.018), forearm, back);
     this.band.rotateX(Math.PI / 2);
     this.band.scale.set(WRIST_HALF_M.across * 1.12, WRIST_HALF_M.through * 1.16, 0.024);
+    this.group.updateMatrixWorld();
+    this.shadow?.fall();
   }
 }
 

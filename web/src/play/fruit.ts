@@ -74,7 +74,6 @@ function flesh({ color, outline }: Kind): Mesh {
     shininess: 40,
   });
   const mesh = new Mesh(new LatheGeometry(points, 24), material);
-  mesh.castShadow = true;
   return mesh;
 }
 

@@ -62,7 +62,7 @@ const PALM_HALF: Triple = [0.039, 0.046, 0.0125];
 const PALM_ROUNDING_M = 0.0122;
 /** Half-axes of the wrist, shared with the forearm that ends there. */
 export const WRIST_HALF_M = { across: 0.0275, through: 0.0205 } as const;
-const GRID_STEP_M = 0.0034;
+const GRID_STEP_M = 0.0042;
 
 /** The surface of one hand. */
 export function handGeometry(side: Side): BufferGeometry {

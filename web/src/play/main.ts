@@ -44,7 +44,14 @@ function start(): void {
 function open(page: HTMLElement, sound: Sound): Picture | null {
   const overlay = part("overlay");
   try {
-    return new Picture(page, part<HTMLCanvasElement>("picture"), part("hud"), overlay, sound);
+    return new Picture(
+      page,
+      part<HTMLCanvasElement>("picture"),
+      part<HTMLCanvasElement>("backdrop"),
+      part("hud"),
+      overlay,
+      sound,
+    );
   } catch {
     overlay.innerHTML = '<div class="panel" role="alert"><h1 class="title"></h1><p></p></div>';
     overlay.querySelector("h1")?.append(t("play.unable.title"));

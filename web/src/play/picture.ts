@@ -1,5 +1,5 @@
 // Everything on the patient's screen together: takes messages as they come, draws a frame when asked.
-import type { Group, Vector3 } from "three";
+import type { Vector3 } from "three";
 import type { LiveMessage } from "../api/types";
 import { type Changes, changesBetween, type GameView } from "./changes";
 import { Effects } from "./effects";
@@ -13,10 +13,8 @@ import { Pace } from "./pace";
 import { type Access, type Face, faceFor } from "./screen";
 import type { Cue, Sound } from "./sound";
 import { Stage } from "./stage";
-import { table } from "./table";
 
 const LONGEST_STEP_S = 0.1;
-const CLOUDS_M_S = 0.12;
 
 export class Picture {
   private readonly stage: Stage;
@@ -25,7 +23,6 @@ export class Picture {
   private readonly guide = new Guide();
   private readonly stillness = matchMedia("(prefers-reduced-motion: reduce)");
   private readonly effects = new Effects(() => this.stillness.matches);
-  private readonly clouds: Group;
   private readonly hud: Hud;
   private readonly overlay: Overlay;
   private readonly pace = new Pace();
@@ -39,17 +36,16 @@ export class Picture {
   constructor(
     private readonly page: HTMLElement,
     canvas: HTMLCanvasElement,
+    backdrop: HTMLCanvasElement,
     hud: HTMLElement,
     overlay: HTMLElement,
     private readonly sound: Sound,
   ) {
-    this.stage = new Stage(canvas);
+    this.stage = new Stage(canvas, backdrop, garden());
     this.limbs = new Limbs((side) => this.stage.look(side));
     this.hud = new Hud(hud);
     this.overlay = new Overlay(overlay);
-    const scenery = garden();
-    this.clouds = scenery.clouds;
-    const parts = [scenery.group, table(), this.guide.group, this.orchard.group, this.limbs.group, this.effects.group];
+    const parts = [this.guide.group, this.orchard.group, this.limbs.group, this.effects.group];
     this.stage.scene.add(...parts);
   }
 
@@ -73,8 +69,7 @@ export class Picture {
     this.hud.show(this.game);
     this.overlay.show(face, this.game, this.newest?.tick.reason ?? "", now_s);
     this.stage.render();
-    const luxury = this.pace.frame(now_s);
-    if (luxury) this.stage.giveUp(luxury);
+    if (this.pace.frame(now_s)) this.stage.coarsen();
     this.mark(face, hand);
   }
 
@@ -94,7 +89,6 @@ export class Picture {
     this.orchard.animate(dt_s, hand, camera, still);
     this.effects.animate(dt_s, camera);
     this.guide.lead(hand, face === "playing" ? this.orchard.nearest(hand) : null);
-    if (!still) this.clouds.position.x = (this.clouds.position.x + CLOUDS_M_S * dt_s) % 20;
   }
 
   /** What a test, or a person looking into the page, wants to know without looking at pixels. */

@@ -1,61 +1,70 @@
-// The frame around the scene: renderer, the patient's eyes, screen sizes, and what is given up on slow screens.
+// The frame around the scene: the patient's eyes, the painted backdrop, screen sizes, fewer pixels on slow screens.
 import {
   Color,
   DirectionalLight,
   HemisphereLight,
-  PCFShadowMap,
+  type Object3D,
   PerspectiveCamera,
   Scene,
   Vector3,
   WebGLRenderer,
 } from "three";
-import type { Luxury } from "./pace";
+import { SUN_DIRECTION } from "./table-shadow";
 
-/** A little above and behind the real eyes, so that the whole forearm and what it reaches for are in view (trunk frame). */
-const EYES_IN_TRUNK = new Vector3(0, 0.36, 0.34);
-const GAZE_IN_TRUNK = new Vector3(0, -0.17, -0.5);
-/** Eyes move towards the acting arm's side by this share of its shoulder's distance. */
-const EYES_SHIFT_M = 0.07;
-const HEIGHT_RAD = (56 * Math.PI) / 180;
+/**
+ * A little above and behind the real eyes and on the acting arm's side, so that the whole forearm, what it reaches for
+ * and the table beneath are in view. Trunk frame, for a right arm; mirrored for a left one.
+ */
+const EYES_IN_TRUNK = new Vector3(0.07, 0.36, 0.13);
+const GAZE_DOWN_RAD = (32.5 * Math.PI) / 180;
+const HEIGHT_RAD = (70 * Math.PI) / 180;
 /** On narrow screens the picture keeps at least this width. */
-const LEAST_WIDTH_RAD = (66 * Math.PI) / 180;
-const SHADOW_MAP = 1024;
-const FINE_PIXELS = 1.5;
+const LEAST_WIDTH_RAD = (74 * Math.PI) / 180;
+const FINEST_PIXELS = 1.5;
+const COARSEST_PIXELS = 0.5;
+const COARSER = 0.75;
 
 export class Stage {
+  /** What acts: drawn every frame. */
   readonly scene = new Scene();
-  readonly camera = new PerspectiveCamera(56, 1, 0.05, 120);
+  readonly camera = new PerspectiveCamera(70, 1, 0.05, 120);
   private readonly renderer: WebGLRenderer;
-  private readonly sun = new DirectionalLight(new Color("#fff0d8"), 2.3);
-  private pixelRatio = Math.min(devicePixelRatio, FINE_PIXELS);
+  private pixelRatio = Math.min(devicePixelRatio, FINEST_PIXELS);
 
-  /** Throws where the browser has no WebGL. */
-  constructor(private readonly canvas: HTMLCanvasElement) {
-    this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: "high-performance" });
-    this.renderer.shadowMap.enabled = true;
-    this.renderer.shadowMap.type = PCFShadowMap;
-    this.light();
-    this.look("right");
+  /**
+   * The scenery is painted once onto `backdrop`, behind the see-through `canvas`: the eyes never move and nothing acts
+   * behind it, and so a screen without a graphics card has two thirds less to compute. Throws without WebGL.
+   */
+  constructor(
+    private readonly canvas: HTMLCanvasElement,
+    private readonly backdrop: HTMLCanvasElement,
+    private readonly scenery: Scene,
+  ) {
+    const antialias = !drawsInSoftware();
+    const powerPreference = "high-performance";
+    this.renderer = new WebGLRenderer({ canvas, antialias, alpha: true, stencil: true, powerPreference });
+    this.scene.add(...lights());
     addEventListener("resize", () => this.fit());
+    this.look("right");
     this.fit();
   }
 
   /** Puts the eyes where an arm of that side is well seen. */
   look(side: "left" | "right"): void {
-    const shift = side === "left" ? EYES_SHIFT_M : -EYES_SHIFT_M;
-    this.camera.position.copy(EYES_IN_TRUNK).setX(shift);
-    this.camera.lookAt(GAZE_IN_TRUNK);
+    this.camera.position.copy(EYES_IN_TRUNK);
+    if (side === "left") this.camera.position.x *= -1;
+    this.camera.rotation.set(-GAZE_DOWN_RAD, 0, 0);
     this.camera.updateMatrixWorld();
+    this.paintBackdrop();
   }
 
   render(): void {
     this.renderer.render(this.scene, this.camera);
   }
 
-  /** Gives up one luxury for the sake of smooth movement. */
-  giveUp(luxury: Luxury): void {
-    if (luxury === "shadows") this.dropShadows();
-    else this.pixelRatio = luxury === "fine pixels" ? Math.min(1, this.pixelRatio) : this.pixelRatio * 0.7;
+  /** Draws fewer pixels for the sake of smooth movement. */
+  coarsen(): void {
+    this.pixelRatio = Math.max(COARSEST_PIXELS, this.pixelRatio * COARSER);
     this.fit();
   }
 
@@ -68,30 +77,39 @@ export class Stage {
   private fit(): void {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     if (width === 0 || height === 0) return;
-    this.renderer.setPixelRatio(this.pixelRatio);
-    this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     const wideEnough_rad = 2 * Math.atan(Math.tan(LEAST_WIDTH_RAD / 2) / this.camera.aspect);
     this.camera.fov = (Math.max(HEIGHT_RAD, wideEnough_rad) * 180) / Math.PI;
     this.camera.updateProjectionMatrix();
+    this.paintBackdrop();
   }
 
-  /** Soft light from everywhere, and one sun nearly overhead: shadows fall beneath things and so tell their depth. */
-  private light(): void {
-    const { sun } = this;
-    sun.position.set(0.35, 2.2, 0.1);
-    sun.target.position.set(0, 0, -0.25);
-    sun.castShadow = true;
-    sun.shadow.mapSize.set(SHADOW_MAP, SHADOW_MAP);
-    sun.shadow.bias = -0.002;
-    sun.shadow.normalBias = 0.01;
-    sun.shadow.radius = 3;
-    Object.assign(sun.shadow.camera, { left: -1, right: 1, top: 0.9, bottom: -0.9, near: 0.5, far: 4 });
-    this.scene.add(sun, sun.target, new HemisphereLight(new Color("#dff0ff"), new Color("#a9926c"), 1.9));
+  private paintBackdrop(): void {
+    this.resize(Math.min(devicePixelRatio, FINEST_PIXELS));
+    this.backdrop.width = this.canvas.width;
+    this.backdrop.height = this.canvas.height;
+    this.renderer.render(this.scenery, this.camera);
+    this.backdrop.getContext("2d")?.drawImage(this.canvas, 0, 0);
+    this.resize(this.pixelRatio);
   }
 
-  private dropShadows(): void {
-    this.sun.castShadow = false;
-    this.renderer.shadowMap.enabled = false;
+  private resize(pixelRatio: number): void {
+    this.renderer.setPixelRatio(pixelRatio);
+    this.renderer.setSize(this.canvas.clientWidth, this.canvas.clientHeight, false);
   }
+}
+
+/** Soft light from everywhere and one sun. */
+function lights(): Object3D[] {
+  const sun = new DirectionalLight(new Color("#fff0d8"), 2.3);
+  sun.position.copy(SUN_DIRECTION);
+  return [sun, new HemisphereLight(new Color("#dff0ff"), new Color("#a9926c"), 1.9)];
+}
+
+/** Whether pictures are computed without a graphics card: smooth edges then cost more than they are worth. */
+function drawsInSoftware(): boolean {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  const names = gl?.getExtension("WEBGL_debug_renderer_info");
+  const renderer = gl && names ? String(gl.getParameter(names.UNMASKED_RENDERER_WEBGL)) : "";
+  return /swiftshader|llvmpipe|software|basic render/i.test(renderer);
 }

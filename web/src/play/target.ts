@@ -17,6 +17,8 @@ import { glowTexture } from "./textures";
 
 const APPEAR_S = 0.35;
 const FADE_S = 0.6;
+/** The fruit hangs this share of the zone's radius below its middle, so that a hand that arrives lies upon it. */
+const BELOW = 0.55;
 /** The fruit fills this share of the zone in which it counts as reached. */
 const FRUIT_SHARE = 0.72;
 /** The closing ring is wider than the zone by this much per metre between hand and target. */
@@ -45,6 +47,7 @@ export class Target {
     this.glow.scale.setScalar(3.6);
     this.glow.renderOrder = -1;
     this.facing.add(this.track, this.arc, this.closing, this.closingEdge);
+    for (const part of [this.glow, this.fruit, this.facing]) part.position.y = -BELOW;
     this.group.add(this.glow, this.fruit, this.facing);
     this.group.position.fromArray(view.position);
   }
