@@ -77,10 +77,12 @@ def _bounds(
 ) -> tuple[float, float, float]:
     """Bounds of swing, twist and elbow."""
     shoulder, elbow, wrist, _ = arm(side)
-    swing = _segment_bound(frame, shoulder, elbow, lengths.upper_arm_m)
-    forearm = _segment_bound(frame, elbow, wrist, lengths.forearm_m)
-    distance_m = float(np.linalg.norm(frame.positions_in_room[wrist] - frame.positions_in_room[shoulder]))
-    ends = direction_sets.spread(frame, shoulder, wrist)
+    swing = _segment_bound(frame, shoulder, elbow, lengths.upper_arm_m, lengths.upper_arm_share)
+    forearm = _segment_bound(frame, elbow, wrist, lengths.forearm_m, lengths.forearm_share)
+    distance_m = direction_sets.distance_m(frame, shoulder, wrist)
+    expected_m = direction_sets.hinge_distance_m(flexion, lengths.upper_arm_m, lengths.forearm_m)
+    share = max(lengths.upper_arm_share, lengths.forearm_share)
+    ends = direction_sets.believed(direction_sets.spread(frame, shoulder, wrist), distance_m, expected_m, share)
     hinge = direction_sets.hinge_bound(flexion, lengths.upper_arm_m, lengths.forearm_m, distance_m, ends)
     return (
         swing,
@@ -89,9 +91,10 @@ def _bounds(
     )
 
 
-def _segment_bound(frame: FusedFrame, start: int, end: int, known_m: float) -> float:
-    estimated_m = float(np.linalg.norm(frame.positions_in_room[end] - frame.positions_in_room[start]))
-    return direction_sets.direction_bound(estimated_m, known_m, direction_sets.spread(frame, start, end))
+def _segment_bound(frame: FusedFrame, start: int, end: int, known_m: float, share: float) -> float:
+    estimated_m = direction_sets.distance_m(frame, start, end)
+    spread = direction_sets.believed(direction_sets.spread(frame, start, end), estimated_m, known_m, share)
+    return direction_sets.direction_bound(estimated_m, known_m, spread)
 
 
 def _unknown(t_s: float, side: Side) -> JointAngles:

@@ -1,14 +1,15 @@
 """How far a segment's direction, and the angles made of it, can be from the truth: bounds in radians.
 
 The truth of each joint lies in a set (`FusedFrame`). A segment's true vector v then differs from the estimated one
-by no more than both ends' sets together, and its length is known (learnt). All bounds here follow from these two
-facts and hold whatever the truth is inside its sets. Derivations: docs/angles.md.
+by no more than both ends' sets together, and its length is known (learnt). The bounds follow from these two facts and
+hold whatever the truth is inside its sets; `believed` shrinks the sets to the share that the segment's length, which
+is watched all the time, was ever seen to use. Derivations: docs/angles.md.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import acos, asin, hypot, pi, sin, sqrt, tan
+from math import acos, asin, cos, hypot, log, pi, sin, sqrt, tan
 from typing import Final
 
 import numpy as np
@@ -17,6 +18,10 @@ from fusion.messages import Floats, FusedFrame
 
 LENGTH_TOLERANCE_M: Final = 0.02
 """How far a learnt length may be from the true one (Kinect bone lengths vary by about this much with the pose)."""
+
+
+SAFETY: Final = 1.5
+"""Errors across a segment are taken as at most this times those seen along it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,6 +60,16 @@ def _root(square: float) -> float:
     return sqrt(max(square, 0.0))
 
 
+def believed(spread: Spread, estimated_m: float, known_m: float, share: float) -> Spread:
+    """The part of a spread that the segment is believed to use: the learnt share, or what its length shows just now.
+
+    A length that is off by m shows an error of m along the segment; one as large is to be expected across it.
+    """
+    misfit_m = SAFETY * abs(estimated_m - known_m)
+    used = min(1.0, max(share, misfit_m / max(spread.along_m, 1e-9)))
+    return Spread(used * spread.any_m, used * spread.along_m, used * spread.across_m)
+
+
 def direction_bound(estimated_m: float, known_m: float, spread: Spread) -> float:
     """Largest angle between a segment's true and estimated direction, the least of three bounds that each hold.
 
@@ -80,6 +95,16 @@ def direction_bound(estimated_m: float, known_m: float, spread: Spread) -> float
     if spread.across_m < shortest and least_along > -sqrt(shortest**2 - spread.across_m**2):
         by_across = asin(spread.across_m / shortest)
     return min(by_ball, by_along, by_across)
+
+
+def distance_m(frame: FusedFrame, start: int, end: int) -> float:
+    """Estimated distance of two joints."""
+    return float(np.linalg.norm(frame.positions_in_room[end] - frame.positions_in_room[start]))
+
+
+def hinge_distance_m(flexion_rad: float, upper_m: float, forearm_m: float) -> float:
+    """Distance of shoulder and wrist at a flexion."""
+    return sqrt(max(upper_m**2 + forearm_m**2 + 2.0 * upper_m * forearm_m * cos(flexion_rad), 0.0))
 
 
 def elbow_bound(flexion_rad: float, swing_rad: float, forearm_rad: float, hinge: float) -> float:
@@ -114,15 +139,17 @@ def _flexion_at(distance_m: float, upper_m: float, forearm_m: float) -> float:
 def twist_bound(elevation_rad: float, flexion_rad: float, swing_rad: float, forearm_rad: float) -> float:
     """Largest error of the twist: how far the forearm can lie about the upper arm, and what the swing's error turns.
 
-    The forearm is within ε = swing + forearm bound of where it would be had the upper arm been carried over by the
-    least rotation, so its azimuth is within asin(sin ε / sin γ): undefined (π) with a straight or folded elbow.
-    Carrying the zero of the twist along a path of length s on the sphere turns it by at most s · tan(elevation / 2).
+    Take the estimated arm's own direction over to the true one, a way of at most ε_d on the sphere. On that way the
+    azimuth of the estimated forearm turns by at most ∫ cot(m − s) ds = ln(sin m / sin(m − ε_d)), m being the elbow's
+    distance from straight or folded; the true forearm is within asin(sin ε_f / sin(m − ε_d)) of it; and the zero of the
+    twist turns by at most ε_d tan((elevation + ε_d) / 2). Undefined (π) where the elbow may be straight or folded.
     """
-    cone = swing_rad + forearm_rad
+    bend = min(flexion_rad, pi - flexion_rad) - swing_rad
     highest = elevation_rad + swing_rad
-    if highest >= pi or cone >= min(flexion_rad, pi - flexion_rad):
+    if highest >= pi or bend <= forearm_rad:
         return pi
-    return min(pi, asin(min(1.0, sin(cone) / sin(flexion_rad))) + swing_rad * tan(0.5 * highest))
+    carried = log(sin(bend + swing_rad) / sin(bend))
+    return min(pi, carried + asin(sin(forearm_rad) / sin(bend)) + swing_rad * tan(0.5 * highest))
 
 
 def _acos(cosine: float) -> float:

@@ -7,6 +7,7 @@ from itertools import pairwise
 from math import pi
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -131,3 +132,37 @@ def test_sets_that_are_not_known_claim_nothing() -> None:
     assert arm_angles(unknown, HERE, Side.RIGHT, LENGTHS).twist_bound_rad == pi
     only_balls = arm_angles(frame, HERE, Side.RIGHT, LENGTHS)
     assert 0.04 / 0.28 < only_balls.swing_bound_rad < 0.3
+
+
+def test_a_share_of_the_sets_gives_the_bounds_of_smaller_sets() -> None:
+    points = arm_points_in_trunk(0.8, 1.0, 0.2, 1.4, LENGTHS, Side.RIGHT, np.zeros(3))
+    wide, narrow = frame_of(points, ball(0.1)), frame_of(points, ball(0.03))
+    some = arm_angles(wide, HERE, Side.RIGHT, replace(LENGTHS, upper_arm_share=0.3, forearm_share=0.3))
+    few = arm_angles(narrow, HERE, Side.RIGHT, LENGTHS)
+    assert some.swing_bound_rad == pytest.approx(few.swing_bound_rad)
+    assert some.twist_bound_rad == pytest.approx(few.twist_bound_rad)
+    assert some.elbow_bound_rad == pytest.approx(few.elbow_bound_rad)
+
+
+def test_a_segment_of_the_wrong_length_is_not_believed() -> None:
+    learnt = replace(LENGTHS, upper_arm_share=0.3, forearm_share=0.3)
+    right, wrong = (
+        arm_angles(
+            frame_of(arm_points_in_trunk(0.8, 1.0, 0.2, 1.4, seen, Side.RIGHT, np.zeros(3)), ball(0.1)),
+            HERE,
+            Side.RIGHT,
+            learnt,
+        )
+        for seen in (LENGTHS, ArmLengths(0.40, 0.25, 0.08))
+    )
+    assert right.swing_bound_rad < 0.35
+    assert wrong.swing_bound_rad > 1.8 * right.swing_bound_rad
+
+
+def test_sets_that_grow_while_nobody_sees_the_arm_widen_its_bounds() -> None:
+    learnt = replace(LENGTHS, upper_arm_share=0.3, forearm_share=0.3)
+    points = arm_points_in_trunk(0.8, 1.0, 0.2, 1.4, LENGTHS, Side.RIGHT, np.zeros(3))
+    bounds = [arm_angles(frame_of(points, ball(b)), HERE, Side.RIGHT, learnt).swing_bound_rad for b in (0.1, 0.2, 0.5)]
+    assert bounds[0] < 0.35
+    assert bounds[0] < bounds[1] < bounds[2]
+    assert bounds[2] > 0.7

@@ -13,11 +13,13 @@ from fusion.skeleton import JOINT_COUNT, Side, arm
 TRUE = ArmLengths(0.30, 0.26, 0.09)
 
 
-def frame(t_s: float, lengths: ArmLengths = TRUE, state: int = 2) -> FusedFrame:
+def frame(t_s: float, lengths: ArmLengths = TRUE, state: int = 2, bound_m: float = 0.1) -> FusedFrame:
     positions = np.full((JOINT_COUNT, 3), np.nan)
     positions[list(arm(Side.LEFT))] = arm_points_in_trunk(t_s, 1.0, 0.2, 1.0, lengths, Side.LEFT, np.zeros(3))
     states = np.full(JOINT_COUNT, state, dtype=np.uint8)
-    return FusedFrame(t_s, positions, np.zeros((JOINT_COUNT, 3, 3)), np.zeros(JOINT_COUNT), states)
+    return FusedFrame(
+        t_s, positions, np.tile(bound_m**2 * np.eye(3), (JOINT_COUNT, 1, 1)), np.full(JOINT_COUNT, bound_m), states
+    )
 
 
 def learnt(frames: list[FusedFrame]) -> ArmLengths | None:
@@ -62,3 +64,35 @@ def test_a_sensor_without_hands_gets_a_usual_hand() -> None:
     found = learnt(frames)
     assert found is not None
     assert found.hand_m == pytest.approx(0.08)
+
+
+def scattered(spread_m: float, count: int = 200, bound_m: float = 0.1) -> ArmLengths:
+    """Learnt from arms whose upper arm's length scatters."""
+    rng = np.random.default_rng(1)
+    found = learnt(
+        [frame(0.11 * k, ArmLengths(0.30 + spread_m * rng.normal(), 0.26, 0.09), bound_m=bound_m) for k in range(count)]
+    )
+    assert found is not None
+    return found
+
+
+def test_lengths_that_stay_constant_show_that_the_sets_are_wide() -> None:
+    assert scattered(0.02).upper_arm_share == pytest.approx(1.5 * 1.96 * 0.02 / 0.2, rel=0.2)
+
+
+def test_lengths_that_scatter_leave_the_sets_as_they_are() -> None:
+    assert scattered(0.1).upper_arm_share == 1.0
+
+
+def test_a_perfectly_constant_length_is_not_believed_beyond_five_centimetres() -> None:
+    found = scattered(0.0)
+    assert found.upper_arm_share == pytest.approx(0.05 / 0.2)
+    assert found.forearm_share == pytest.approx(0.05 / 0.2)
+
+
+def test_tight_sets_are_kept_whole() -> None:
+    assert scattered(0.0, bound_m=0.02).upper_arm_share == 1.0
+
+
+def test_too_few_frames_say_nothing_about_the_sets() -> None:
+    assert scattered(0.0, count=15).upper_arm_share == 1.0
