@@ -11,13 +11,13 @@ import numpy as np
 from fusion.kinematics.angles import HANGING, wrapped
 from fusion.messages import Floats, JointAngles, MirrorTarget
 
-VELOCITY_TIME_S: Final = 0.06
+VELOCITY_TIME_S: Final = 0.1
 """Time constant of the velocities' filter; velocities only feed forward, the position is never delayed."""
 LONGEST_STEP_S: Final = 0.25
 """A previous target older than this says nothing about velocity."""
-TWIST_UNTOLD_RAD, TWIST_TOLD_RAD = radians(10.0), radians(30.0)
+TWIST_UNTOLD_RAD, TWIST_TOLD_RAD = radians(15.0), radians(45.0)
 """Elbow bend below which the forearm does not tell the twist, and above which it fully does."""
-TWIST_RATE_RAD_S: Final = 8.0
+TWIST_RATE_RAD_S: Final = 5.0
 """Fastest catching-up of the twist, so that leaving the straight elbow is no jump; above voluntary speed."""
 
 
