@@ -1,5 +1,5 @@
 // The patient's affected arm as it is seen from their own eyes: sleeve, forearm, wristband and hand; or its ghost.
-import { Color, Group, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial, TorusGeometry, Vector3 } from "three";
+import { Color, Group, Matrix4, Mesh, MeshLambertMaterial, TorusGeometry, Vector3 } from "three";
 import { handGeometry, type Side, WRIST_HALF_M } from "./hand-shape";
 import { type ArmPose, backOfHand, forearmOf, handDirectionOf } from "./limb-line";
 import { LimbTube, profile } from "./limb-tube";
@@ -9,7 +9,8 @@ const SKIN = new Color("#d39a74");
 const SLEEVE = new Color("#2c6f8f");
 const BAND = new Color("#f0ead8");
 const GHOST = new Color("#ffffff");
-const GHOST_OPACITY = 0.3;
+const GHOST_GLOW = new Color("#5a6a78");
+const GHOST_OPACITY = 0.45;
 
 const WRIST: readonly [number, number] = [WRIST_HALF_M.across, WRIST_HALF_M.through];
 const SKIN_PROFILE = profile([
@@ -99,6 +100,15 @@ function flesh(color: Color): MeshLambertMaterial {
   return new MeshLambertMaterial({ color });
 }
 
-function ghostly(): MeshBasicMaterial {
-  return new MeshBasicMaterial({ color: GHOST, transparent: true, opacity: GHOST_OPACITY, depthWrite: false });
+/** Where both arms are nearly in one place the solid one wins, or the two would flicker. */
+function ghostly(): MeshLambertMaterial {
+  return new MeshLambertMaterial({
+    color: GHOST,
+    emissive: GHOST_GLOW,
+    transparent: true,
+    opacity: GHOST_OPACITY,
+    polygonOffset: true,
+    polygonOffsetFactor: 6,
+    polygonOffsetUnits: 60,
+  });
 }

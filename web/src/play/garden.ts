@@ -74,7 +74,7 @@ function hill({ distance, height, waves, color }: (typeof HILLS)[number]): Mesh 
 
 /** Rings of grass that grow paler with distance, as air makes them. */
 function lawn(): Mesh {
-  const geometry = new RingGeometry(0.3, 60, 40, 24);
+  const geometry = new RingGeometry(0.01, 60, 40, 24);
   geometry.rotateX(-Math.PI / 2);
   paint(geometry, ({ x, z }) => LAWN_NEAR.clone().lerp(LAWN_FAR, Math.min(1, Math.hypot(x, z) / LAWN_PALES_OVER_M)));
   const mesh = new Mesh(geometry, new MeshBasicMaterial({ vertexColors: true }));

@@ -69,7 +69,7 @@ export function handGeometry(side: Side): BufferGeometry {
   const thumbwards = side === "left" ? 1 : -1;
   const bones = FINGERS.map(bonesOf);
   const distance: Distance = (mirroredX, y, z) => handDistance(bones, mirroredX * thumbwards, y, z);
-  return surfaceNets(distance, [-0.085, -0.035, -0.095], [0.085, 0.205, 0.035], GRID_STEP_M);
+  return surfaceNets(distance, [-0.085, -0.05, -0.095], [0.085, 0.205, 0.035], GRID_STEP_M);
 }
 
 /** Fingers stay apart from one another (plain minimum) and grow smoothly out of the palm. */
@@ -123,7 +123,7 @@ function palmDistance(x: number, y: number, z: number): number {
 
 /** A flattened rod about the wrist, scaled so that its distance stays roughly metric. */
 function wristDistance(x: number, y: number, z: number): number {
-  const beyond = Math.max(0, y - 0.02, -0.03 - y);
+  const beyond = Math.max(0, y - 0.02, -0.012 - y);
   const flattened = z * (WRIST_HALF_M.across / WRIST_HALF_M.through);
   return (Math.hypot(x, beyond, flattened) - WRIST_HALF_M.across) * 0.85;
 }

@@ -23,6 +23,8 @@ export class Overlay {
     this.title = child(this.panel, "h1", "title");
     this.text = child(this.panel, "p", "text");
     this.reason = child(this.panel, "p", "reason");
+    // The station gives its reasons in English.
+    this.reason.lang = "en";
     this.login = child(this.panel, "a", "login");
     this.login.href = "/";
     this.breath = child(root, "div", "breath");
@@ -63,5 +65,5 @@ export function breathFullness(now_s: number): number {
 }
 
 function givesReason(face: Face): boolean {
-  return face === "paused" || face === "stopped" || face === "fault" || face === "ready";
+  return face === "paused" || face === "stopped" || face === "fault";
 }

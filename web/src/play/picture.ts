@@ -42,7 +42,10 @@ export class Picture {
     private readonly sound: Sound,
   ) {
     this.stage = new Stage(canvas, backdrop, garden());
-    this.limbs = new Limbs((side) => this.stage.look(side));
+    this.limbs = new Limbs((side) => {
+      this.stage.look(side);
+      this.page.dataset.side = side;
+    });
     this.hud = new Hud(hud);
     this.overlay = new Overlay(overlay);
     const parts = [this.guide.group, this.orchard.group, this.limbs.group, this.effects.group];

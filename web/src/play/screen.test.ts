@@ -1,0 +1,57 @@
+import { describe, expect, it } from "vitest";
+import type { LiveMessage } from "../api/types";
+import { affectedSide, clockText, faceFor, STALE_S } from "./screen";
+
+function message(state: string, phase: string | null, session = "s1"): LiveMessage {
+  const game = phase === null ? null : { phase };
+  return { index: 1, tick: { state, session }, game } as unknown as LiveMessage;
+}
+
+describe("faceFor", () => {
+  it.each([
+    ["engaged", "playing", "playing"],
+    ["engaged", "rest", "rest"],
+    ["engaged", "waiting", "waiting"],
+    ["hold", "playing", "paused"],
+    ["hold", "rest", "paused"],
+    ["stopped", "playing", "stopped"],
+    ["fault", "playing", "fault"],
+    ["ready", "waiting", "ready"],
+    ["off", null, "ready"],
+    ["stopped", "over", "over"],
+  ])("shows a %s station in phase %s as %s", (state, phase, face) => {
+    expect(faceFor("open", message(state, phase), 0)).toBe(face);
+  });
+
+  it("welcomes until a session is open", () => {
+    expect(faceFor("open", null, 0)).toBe("welcome");
+    expect(faceFor("open", message("off", null, ""), 0)).toBe("welcome");
+  });
+
+  it("never shows an old picture as if it were true", () => {
+    expect(faceFor("open", message("engaged", "playing"), STALE_S + 0.1)).toBe("lost");
+    expect(faceFor("lost", message("engaged", "playing"), 0)).toBe("lost");
+  });
+
+  it("asks for a log-in where there is none", () => {
+    expect(faceFor("locked", null, 0)).toBe("locked");
+  });
+});
+
+describe("clockText", () => {
+  it.each([
+    [65, "1:05"],
+    [59.2, "1:00"],
+    [0.4, "0:01"],
+    [0, "0:00"],
+    [-3, "0:00"],
+  ])("shows %d s as %s", (seconds, text) => {
+    expect(clockText(seconds)).toBe(text);
+  });
+});
+
+describe("affectedSide", () => {
+  it("is the other one", () => {
+    expect([affectedSide("left"), affectedSide("right")]).toEqual(["right", "left"]);
+  });
+});
