@@ -58,9 +58,9 @@ function EntryPage({ title, demo, doing, onEntered, children }: EntryPageProps) 
       {demo && <DemoCard doing={doing} onEntered={onEntered} />}
       <section class="card">
         <h1>{title}</h1>
+        <ProblemBox problem={doing.problem} onClose={doing.forget} />
         {children}
       </section>
-      <ProblemBox problem={doing.problem} onClose={doing.forget} />
     </main>
   );
 }

@@ -1,18 +1,29 @@
 // Beside the therapy: the game's score, the patient's screen, the end of the session.
+import type { Session } from "../../api/types";
 import { t } from "../../strings";
 import { duration } from "../format";
 import { type Feed, useFromFeed } from "./feed";
 
 const PLAY_PAGE = "/play.html";
 
-export function Aside({ feed, onEnd }: { feed: Feed; onEnd: () => void }) {
+interface Props {
+  feed: Feed;
+  session: Session;
+  onEnd: () => void;
+}
+
+export function Aside({ feed, session, onEnd }: Props) {
   const elapsed = useFromFeed(feed, 2, ({ newest }) => newest?.session?.elapsed_s ?? 0);
   return (
     <section class="card live-side">
       <div>
-        <Score feed={feed} />
-        <div class="small soft">{t("live.elapsed", { time: duration(elapsed) })}</div>
+        <div class="live-who">
+          <strong>{session.patient_name}</strong>
+          <span title={t("history.duration")}>{duration(elapsed)}</span>
+        </div>
+        <div class="small">{t(`patient.affected.${session.affected_side}`)}</div>
       </div>
+      <Score feed={feed} />
       <a class="button" href={PLAY_PAGE} target="mirrorlimb-play" data-testid="open-play">
         {t("live.play")}
       </a>
@@ -27,11 +38,11 @@ function Score({ feed }: { feed: Feed }) {
   const score = useFromFeed(feed, 5, ({ newest }) => newest?.game?.score ?? 0);
   const hits = useFromFeed(feed, 5, ({ newest }) => newest?.game?.hits ?? 0);
   return (
-    <>
-      <div class="small soft">{t("live.score", { hits })}</div>
-      <div class="score" data-testid="score">
+    <div class="live-score">
+      <span class="score" data-testid="score">
         {score}
-      </div>
-    </>
+      </span>
+      <span class="small soft">{t("live.score", { hits })}</span>
+    </div>
   );
 }

@@ -25,7 +25,7 @@ export function LiveCurve({ feed, first }: { feed: Feed; first: Joint }) {
   useEffect(() => (place.current ? followTraces(place.current, feed, joint) : undefined), [feed, joint]);
   return (
     <section class="card live-curve">
-      <div class="chart-title">
+      <div class="live-curve-said">
         <select
           value={joint}
           aria-label={t("exo.joint")}
@@ -55,13 +55,17 @@ function Values({ feed, joint }: { feed: Feed; joint: Joint }) {
   return (
     <>
       <span class="key">
-        {t("arm.healthy")} {figure(healthy)}°
+        {t("arm.healthy.short")} <b>{inDegrees(healthy)}</b>
       </span>
       <span class="key key-affected">
-        {t("arm.affected")} {figure(affected)}°
+        {t("arm.affected.short")} <b>{inDegrees(affected)}</b>
       </span>
     </>
   );
+}
+
+function inDegrees(angleDeg: number | null): string {
+  return angleDeg === null ? "–" : `${figure(angleDeg)}°`;
 }
 
 /** Draws the traces until told to end. */
@@ -85,7 +89,7 @@ function optionsFor(joint: Joint): ChartOptions {
   return {
     legend: { show: false },
     cursor: { show: false },
-    padding: [6, 6, 0, 0],
+    padding: [6, 16, 0, 0],
     axes: [
       { ...AXIS, size: 24, values: (_, splits) => splits.map((second) => `${second} s`) },
       { ...AXIS, size: 48, space: 24, values: (_, splits) => splits.map((angle) => `${angle}°`) },

@@ -7,21 +7,16 @@ import { type Feed, useFromFeed } from "./feed";
 export function Exo({ feed }: { feed: Feed }) {
   const tick = useFromFeed(feed, 5, ({ newest }) => newest?.tick ?? null);
   if (!tick) return <section class="card" />;
-  const notes = [tick.exo.fault, ...tick.exo.clamped].filter(Boolean);
+  const notes = [tick.exo.fault, ...tick.exo.clamped].filter(Boolean).map(sentence).join(" · ");
   return (
-    <section class="card" data-testid="exo">
+    <section class="card exo" data-testid="exo">
       <table>
         <thead>
           <tr>
             <th>{t("exo.joint")}</th>
-            <th class="number">{t("exo.measured")}</th>
-            <th class="number">{t("exo.commanded")}</th>
-            <th class="number">{t("exo.limits")}</th>
-            <th>
-              <span class="exo-key">
-                ▮ {t("exo.measured")} ▯ {t("exo.commanded")}
-              </span>
-            </th>
+            <th class="number exo-mark-measured">{t("exo.measured")}</th>
+            <th class="number exo-mark-commanded">{t("exo.commanded")}</th>
+            <th class="exo-range">{t("exo.limits")}</th>
           </tr>
         </thead>
         <tbody>
@@ -30,7 +25,9 @@ export function Exo({ feed }: { feed: Feed }) {
           ))}
         </tbody>
       </table>
-      <p class="small caveat">{notes.length > 0 ? `⚠ ${notes.map(sentence).join(" · ")}` : ""}</p>
+      <p class="small caveat exo-note" title={notes}>
+        {notes && `⚠ ${notes}`}
+      </p>
     </section>
   );
 }
@@ -39,23 +36,37 @@ function Row({ joint, index, tick }: { joint: Joint; index: number; tick: LiveTi
   const limits = tick.limits.find((one) => one.joint === joint);
   const measured = tick.exo.angle_rad[index];
   const commanded = tick.exo.command_rad[index];
-  const place = (angle: number | undefined) =>
-    limits && angle !== undefined
-      ? { left: `${shareOf(angle, limits.min_rad, limits.max_rad)}%` }
-      : { display: "none" };
   return (
     <tr data-testid="exo-row">
       <td>{t(`joint.${joint}.short`)}</td>
       <td class="number">{angleText(measured)}</td>
       <td class="number">{angleText(commanded)}</td>
-      <td class="number">{limits ? `${angleText(limits.min_rad)} … ${angleText(limits.max_rad)}` : "–"}</td>
-      <td>
-        <div class="exo-bar">
-          <div class="exo-measured" style={place(measured)} />
-          <div class="exo-commanded" style={place(commanded)} />
-        </div>
+      <td class="exo-range">
+        {limits && <Bar min={limits.min_rad} max={limits.max_rad} measured={measured} commanded={commanded} />}
       </td>
     </tr>
+  );
+}
+
+interface BarProps {
+  min: number;
+  max: number;
+  measured: number | undefined;
+  commanded: number | undefined;
+}
+
+/** The range from end to end; full mark = measured, frame = commanded. */
+function Bar({ min, max, measured, commanded }: BarProps) {
+  const place = (angle: number | undefined) => ({ left: `${shareOf(angle ?? min, min, max)}%` });
+  return (
+    <div>
+      <span class="exo-end number">{angleText(min)}</span>
+      <div class="exo-bar">
+        <div class="exo-measured" style={place(measured)} />
+        <div class="exo-commanded" style={place(commanded)} />
+      </div>
+      <span class="exo-end">{angleText(max)}</span>
+    </div>
   );
 }
 

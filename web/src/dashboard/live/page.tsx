@@ -60,18 +60,18 @@ function Live({ session }: { session: Session }) {
           <LiveCurve feed={feed} first="elevation" />
           <LiveCurve feed={feed} first="elbow" />
         </div>
+        {ending && <EndQuestion session={session.id} onCancel={() => setEnding(false)} />}
       </div>
       <div class="live-foot">
         <Sensors feed={feed} />
         <Exo feed={feed} />
-        <Aside feed={feed} onEnd={() => setEnding(true)} />
+        <Aside feed={feed} session={session} onEnd={() => setEnding(true)} />
       </div>
       {wishes.problem && (
         <div class="toast">
           <ProblemBox problem={wishes.problem} onClose={wishes.forget} />
         </div>
       )}
-      {ending && <EndQuestion session={session.id} onCancel={() => setEnding(false)} />}
     </main>
   );
 }

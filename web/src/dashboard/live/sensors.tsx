@@ -15,13 +15,17 @@ export function Sensors({ feed }: { feed: Feed }) {
   return (
     <section class="card sensors">
       {sensors.length === 0 ? <NoSensor /> : <SensorTable sensors={sensors} />}
-      {warnings.map((warning) => (
+      {[...sensors.flatMap(warningsOf), ...warnings.map(sentence)].map((warning) => (
         <p key={warning} class="small caveat">
-          ⚠ {sentence(warning)}
+          ⚠ {warning}
         </p>
       ))}
     </section>
   );
+}
+
+function warningsOf({ sensor, warnings }: SensorView): string[] {
+  return warnings.map((warning) => `${sensor}: ${warning}`);
 }
 
 function SensorTable({ sensors }: { sensors: readonly SensorView[] }) {
@@ -56,14 +60,7 @@ function Row({ sensor }: { sensor: SensorView }) {
       <td>
         <strong>{sensor.sensor}</strong> <span class="soft">{sensor.dialect}</span>
       </td>
-      <td>
-        {stateOf(sensor)}
-        {sensor.warnings.map((warning) => (
-          <div key={warning} class="caveat">
-            ⚠ {sentence(warning)}
-          </div>
-        ))}
-      </td>
+      <td>{stateOf(sensor)}</td>
       <td class="number">{figure(sensor.frames_per_s, 1)}</td>
       <td class="number">{thousandths(sensor.latency_s)}</td>
       <td class="number">

@@ -3,15 +3,7 @@ import type { DriveState, LiveTick } from "../../api/types";
 import { t } from "../../strings";
 import { sentence } from "../format";
 import { type Feed, useFromFeed } from "./feed";
-
-const SIGNS: Record<DriveState, string> = {
-  off: "○",
-  ready: "◆",
-  engaged: "▶",
-  hold: "❚❚",
-  fault: "⚠",
-  stopped: "■",
-};
+import { StateSign } from "./state-sign";
 
 export function StateBanner({ feed, children }: { feed: Feed; children: preact.ComponentChildren }) {
   const shown = useFromFeed(feed, 15, faceOf);
@@ -19,9 +11,7 @@ export function StateBanner({ feed, children }: { feed: Feed; children: preact.C
   return (
     <section class={`state state-${state}`} aria-live="assertive">
       <div class="state-said">
-        <span class="state-sign" aria-hidden="true">
-          {state === "lost" ? "⚡" : SIGNS[state]}
-        </span>
+        <StateSign state={state} />
         <div>
           <div class="state-word" data-testid="state" data-state={state}>
             {t(`state.${state}`)}

@@ -46,7 +46,10 @@ export function SessionCurves({ curves }: { curves: Curves }) {
       {curves.t_s.length === 0 ? (
         <p class="soft">{t("curves.none")}</p>
       ) : (
-        <Chart options={OPTIONS} data={data} height={HEIGHT_PX} label={t(`joint.${joint}`)} />
+        <>
+          <Chart options={OPTIONS} data={data} height={HEIGHT_PX} label={t(`joint.${joint}`)} />
+          <p class="small soft">{t("curves.closer")}</p>
+        </>
       )}
     </section>
   );
