@@ -71,7 +71,7 @@ def joined(parts: list[Errors]) -> Errors:
 def errors_of(
     truth: Floats, positions: Floats, bound_m: Floats, state: NDArray[np.uint8], instants: NDArray[np.bool_]
 ) -> Errors:
-    """Errors of one joint at the `instants` (T,) where both it and the truth are known; truth (T, 3), positions (T, 3)."""
+    """Errors of one joint at those `instants` (T,) where it and its truth are known; both (T, 3) m."""
     known = instants & np.isfinite(truth).all(axis=1) & np.isfinite(positions).all(axis=1)
     distance_m = np.linalg.norm(positions[known] - truth[known], axis=1)
     return Errors(distance_m, bound_m[known], state[known] == TrackingState.LOST)

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
+from rich.box import SIMPLE_HEAD
 from rich.console import Console
-from rich.progress import Progress
+from rich.progress import Progress, TaskID
 from rich.table import Table
 
 from fusion.errors import InputError, MachineError
@@ -22,6 +23,8 @@ from fusion.evaluation.scores import Score
 from fusion.recording.reader import read_recording
 
 STDOUT = "-"
+TABLE_WIDTH = 100
+"""Figures are not cut off where the terminal is narrower, or none."""
 
 
 def evaluate(
@@ -42,7 +45,8 @@ def evaluate(
     methods = _known(method or list(METHODS))
     evaluations = _evaluated(recording, methods)
     if json_file != STDOUT:
-        _show(Console(), evaluations)
+        terminal = Console()
+        _show(Console(width=max(terminal.width, TABLE_WIDTH)), evaluations)
     if json_file is not None:
         _write(json_file, json.dumps(_as_json(evaluations), indent=1) + "\n")
     if markdown is not None:
@@ -62,32 +66,41 @@ def _evaluated(paths: Sequence[Path], methods: Sequence[str]) -> list[Evaluation
     with Progress(console=Console(stderr=True), transient=True) as progress:
         for path in paths:
             recording = read_recording(path)
-            bar = progress.add_task(recording.name, total=1.0)
-            evaluations.append(
-                evaluate_recording(recording, methods, lambda share, bar=bar: progress.update(bar, completed=share))
-            )
+            advance = _advance(progress, progress.add_task(recording.name, total=1.0))
+            evaluations.append(evaluate_recording(recording, methods, advance))
     return evaluations
 
 
+def _advance(progress: Progress, bar: TaskID) -> Callable[[float], None]:
+    return lambda share: progress.update(bar, completed=share)
+
+
 def _show(console: Console, evaluations: Sequence[Evaluation]) -> None:
+    """One recording: every joint of every run, then the healthy arm. Several: the healthy arm of each, then pooled."""
     for evaluation in evaluations:
-        for run in evaluation.runs:
-            heading = f"{evaluation.recording}: {run.way.name}"
-            rows = [*run.joints.items(), ("healthy arm", run.healthy_arm)]
-            console.print(_table(f"{heading}\n{title(run.way.causal)}", "joint", rows))
+        if len(evaluations) == 1:
+            for run in evaluation.runs:
+                heading = f"{evaluation.recording}: {run.way.name}\n{title(run.way.causal)}"
+                console.print(_table(heading, "joint", run.joints.items()))
+        _show_ways(console, evaluation.recording, [(run.way, run.healthy_arm) for run in evaluation.runs])
+    if len(evaluations) > 1:
+        _show_ways(console, f"{len(evaluations)} recordings together", list(pooled(evaluations).items()))
+
+
+def _show_ways(console: Console, name: str, scores: Sequence[tuple[Way, Score]]) -> None:
     for causal in (False, True):
-        rows = [(way.name, score) for way, score in pooled(evaluations).items() if way.causal == causal]
-        names = evaluations[0].recording if len(evaluations) == 1 else f"{len(evaluations)} recordings together"
-        console.print(_table(f"Healthy arm, {names}\n{title(causal)}", "method", rows))
+        rows = [(way.name, score) for way, score in scores if way.causal == causal]
+        if rows:
+            console.print(_table(f"{name}, healthy arm\n{title(causal)}", "method", rows))
 
 
-def _table(heading: str, first: str, rows: Sequence[tuple[str, Score]]) -> Table:
-    table = Table(title=heading, caption="mm; inside: share of instants within the reported bound")
-    table.add_column(first)
+def _table(heading: str, first: str, rows: Iterable[tuple[str, Score]]) -> Table:
+    table = Table(title=heading, caption="mm; inside: share of instants within the reported bound", box=SIMPLE_HEAD)
+    table.add_column(first, no_wrap=True)
     for name in HEADINGS:
-        table.add_column(name, justify="right")
+        table.add_column(name, justify="right", no_wrap=True)
     for name, score in rows:
-        table.add_row(name, *cells(score), style="bold" if name == "healthy arm" else None)
+        table.add_row(name, *cells(score))
     return table
 
 
