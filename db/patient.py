@@ -73,13 +73,30 @@ class Patient(PatientBase, table=True):
 class PatientCreate(PatientBase):
     """What a therapist fills in at enrolment."""
 
-    model_config = {"extra": "forbid", "str_strip_whitespace": True}
+    model_config = {
+        "extra": "forbid",
+        "str_strip_whitespace": True,
+        "json_schema_extra": {
+            "examples": [
+                {
+                    "name": "Wang",
+                    "healthy_side": "right",
+                    "notes": "tires quickly",
+                    "passive_range": PassiveRange().model_dump(),
+                }
+            ]
+        },
+    }
 
 
 class PatientUpdate(SQLModel):
     """What a therapist may change later; whatever is left out stays."""
 
-    model_config = {"extra": "forbid", "str_strip_whitespace": True}
+    model_config = {
+        "extra": "forbid",
+        "str_strip_whitespace": True,
+        "json_schema_extra": {"examples": [{"notes": "no longer tires"}]},
+    }
 
     name: str | None = Field(default=None, min_length=1, max_length=120)
     healthy_side: SideName | None = None

@@ -47,6 +47,8 @@ class Course:
         self.plan = plan
         self.saving = False
         self.interrupted = False
+        self.closed = False
+        """The station has let go of the patient; only storing is left."""
         self.picture: GameView | None = None
         self._state = DriveState.OFF
         self._t_s = plan.t_started_s
@@ -88,7 +90,7 @@ class Course:
         playing = self.picture is not None and self.picture.phase == "playing" and tick.state is DriveState.ENGAGED
         target = self.picture.targets[0].position if playing and self.picture and self.picture.targets else None
         mirrored = None if target is None else (-target[0], target[1], target[2])
-        return DemoGoal(hand_in_trunk=mirrored, exo_rad=tick.exo.angle_rad)
+        return DemoGoal(hand_in_trunk=mirrored, healthy_side=self.plan.affected_side.other, exo_rad=tick.exo.angle_rad)
 
 
 def _opened(plan: Plan, tick: LiveTick) -> Game:

@@ -112,12 +112,14 @@ async def _invalid(_: Request, error: RequestValidationError) -> JSONResponse:
     where = ".".join(str(part) for part in first["loc"] if part != "body") or "the form"
     what = f"{where}: {first['msg'][:1].lower()}{first['msg'][1:]}"
     others = f" ({len(more)} more)" if more else ""
-    return as_response(422, what + others, "a form as /api/docs describes it", f"correct {where} and send it again")
+    return as_response(
+        422, what + others, "a form as /api/openapi.json describes it", f"correct {where} and send it again"
+    )
 
 
 async def _framework(request: Request, error: HTTPException) -> JSONResponse:
     what = f"{request.method} {request.url.path}: {str(error.detail).lower()}"
-    return as_response(error.status_code, what, "a route listed in /api/docs", "look at the address")
+    return as_response(error.status_code, what, "a route listed in /api/openapi.json", "look at the address")
 
 
 async def _unforeseen(request: Request, error: Exception) -> JSONResponse:

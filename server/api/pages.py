@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from fastapi import FastAPI, HTTPException
+from fastapi import FastAPI
 from fastapi.responses import FileResponse, HTMLResponse, Response
 from fastapi.staticfiles import StaticFiles
+from starlette.exceptions import HTTPException
 from starlette.types import Scope
 
+_ALL_METHODS = ["GET", "POST", "PUT", "PATCH", "DELETE"]
 BUILT = Path(__file__).parent / "static"
 
 _NOT_BUILT = """<!doctype html><html lang="en"><meta charset="utf-8"><title>mirrorlimb</title>
@@ -20,20 +22,19 @@ _NOT_BUILT = """<!doctype html><html lang="en"><meta charset="utf-8"><title>mirr
 
 def add_pages(app: FastAPI, built: Path = BUILT) -> None:
     """Serve what no route took: JSON 404 below /api, the built pages elsewhere. Add it after all routes."""
-    app.add_api_route(
-        "/api/{path:path}", _no_such_route, methods=["GET", "POST", "PUT", "PATCH", "DELETE"], include_in_schema=False
-    )
+    for path in ("/api", "/api/{path:path}"):
+        app.add_api_route(path, _no_such_route, methods=_ALL_METHODS, include_in_schema=False)
     if (built / "index.html").is_file():
         app.mount("/", _Pages(directory=built, html=True))
     else:
         app.add_api_route("/{path:path}", _not_built, methods=["GET"], include_in_schema=False)
 
 
-async def _no_such_route(path: str) -> None:
+async def _no_such_route() -> None:
     raise HTTPException(404, "no such route")
 
 
-async def _not_built(path: str) -> HTMLResponse:
+async def _not_built() -> HTMLResponse:
     return HTMLResponse(_NOT_BUILT, 503)
 
 

@@ -21,6 +21,7 @@ log = logging.getLogger(__name__)
 HEARTBEAT_S = 0.1
 """The station holds after 0.25 s without one (SR-9)."""
 ANSWER_WITHIN_S = 2.0
+SEND_TRIES, SEND_PAUSE_S = 25, 0.02
 START_WITHIN_S = 30.0
 STATION = ("-m", "server.station")
 
@@ -119,7 +120,7 @@ class StationLink:
         answer: asyncio.Future[WishAnswer] = asyncio.get_running_loop().create_future()
         self._waiting[number] = answer
         try:
-            self._send(make(number))
+            await self._send(make(number))
             answered = await asyncio.wait_for(answer, ANSWER_WITHIN_S)
         except TimeoutError:
             raise _no_answer("the station did not answer in time") from None
@@ -134,9 +135,13 @@ class StationLink:
         if self._channels is not None:
             self._channels.steer_demonstration(goal)
 
-    def _send(self, wish: Wish) -> None:
-        if self._channels is None or not self._channels.send(wish):
-            raise _no_answer("the station is not running")
+    async def _send(self, wish: Wish) -> None:
+        """A station that has just come up is heard before it can hear: its channels open one after the other."""
+        for _ in range(SEND_TRIES):
+            if self._open_channels().send(wish):
+                return
+            await asyncio.sleep(SEND_PAUSE_S)
+        raise _no_answer("the station is not running")
 
     async def _wait_until_up(self) -> None:
         try:

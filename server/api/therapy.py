@@ -164,14 +164,13 @@ class Therapy:
             course = self._opened(session_id)
             course.saving = True
             try:
-                await self._close_at_station(course)
-                self._journal.note(session_id, "ended", f"ended by {account.name}", by=account.name)
-                await self._journal.written()
+                await self._close_at_station(course, account)
                 await self._store_end(course, pain_after)
             except DatabaseError:
                 course.saving = False
                 raise
             self._course = None
+            await self._journal.written()
             await self.measure(session_id)
             return await run_in_threadpool(session_store.detail, self._database, session_id)
 
@@ -236,15 +235,18 @@ class Therapy:
             t_started_s=time.monotonic(),
         )
 
-    async def _close_at_station(self, course: Course) -> None:
-        if course.interrupted:
+    async def _close_at_station(self, course: Course, account: Account) -> None:
+        if course.closed:
             return
         self._closed.clear()
         try:
-            await self._link.ask(lambda number: CloseSession(number=number))
-            await asyncio.wait_for(self._closed.wait(), CLOSED_WITHIN_S)
+            if not course.interrupted:
+                await self._link.ask(lambda number: CloseSession(number=number))
+                await asyncio.wait_for(self._closed.wait(), CLOSED_WITHIN_S)
         except (RefusedError, TimeoutError) as error:
             self._journal.note(course.plan.id, "not closed", f"the station did not close the session: {error}")
+        course.closed = True
+        self._journal.note(course.plan.id, "ended", f"ended by {account.name}", by=account.name)
 
     async def _store_end(self, course: Course, pain_after: int | None) -> None:
         status = SessionStatus.INTERRUPTED if course.interrupted else SessionStatus.ENDED

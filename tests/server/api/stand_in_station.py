@@ -10,11 +10,9 @@ import time
 from math import cos, sin
 from pathlib import Path
 
-import msgspec
-
 from fusion.recording.log import LogAbout, LogWriter
 from fusion.skeleton import JOINT_COUNT, Side
-from server.channels import StationChannels
+from server.channels import StationChannels, encoded
 from server.config import read_start
 from server.messages import (
     ArmView,
@@ -140,20 +138,20 @@ class Station:
         dropped = -1
         while dropped != self.channels.events_dropped:
             dropped = self.channels.events_dropped
-            self.channels.tell(StationUp(t_s=time.monotonic(), ports={"any": 12345}, drive="simulated"))
+            self.channels.tell(encoded(StationUp(t_s=time.monotonic(), ports={"any": 12345}, drive="simulated")))
             time.sleep(0.01)
 
     def answer(self, wish, accepted=True, reason=""):
         answer = WishAnswer(
             t_s=time.monotonic(), number=wish.number, accepted=accepted, reason=reason, state=self.state
         )
-        self.channels.tell(answer)
+        self.channels.tell(encoded(answer))
 
     def go(self, state, reason):
         if state is not self.state:
             changed = StateChanged(t_s=time.monotonic(), before=self.state, after=state, reason=reason)
             self.state = state
-            self.channels.tell(changed)
+            self.channels.tell(encoded(changed))
 
     def take(self, wish):
         if isinstance(wish, Heartbeat) or (self.session and self.session.patient == "mute"):
@@ -185,7 +183,8 @@ class Station:
         self.log = None
         self.go(DriveState.OFF, "the session is over")
         self.answer(wish)
-        self.channels.tell(SessionClosed(t_s=time.monotonic(), session=closed.session, recording=closed.recording))
+        over = SessionClosed(t_s=time.monotonic(), session=closed.session, recording=closed.recording)
+        self.channels.tell(encoded(over))
 
     def move(self, wish):
         if self.session.patient == "dies":
@@ -206,8 +205,8 @@ class Station:
         session = self.session.session if self.session else ""
         made = tick(index, time.monotonic(), self.state, session, self.healthy_side)
         if self.log:
-            self.log.tick(msgspec.msgpack.encode(made), made.t_s)
-        self.channels.publish(made)
+            self.log.tick(encoded(made), made.t_s)
+        self.channels.publish(encoded(made))
 
 
 def main():

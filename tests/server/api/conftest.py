@@ -1,0 +1,138 @@
+"""The real application on a real port, with the real database; its station made of paper where a test bends it."""
+
+import socket
+import threading
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import httpx
+import pytest
+import uvicorn
+
+from server.api.app import create_app
+from server.api.auth import COOKIE, AuthSettings
+from server.config import Config
+
+QUICK = AuthSettings(argon2_time_cost=1, argon2_memory_kib=64)
+STAND_IN = (str(Path(__file__).with_name("stand_in_station.py")),)
+NAME, PASSWORD = "Dr. Lin", "three quiet herons"
+
+
+@dataclass
+class Running:
+    """A running service."""
+
+    url: str
+    app: object
+    data: Path
+
+    @property
+    def service(self):
+        return self.app.state.service
+
+    @property
+    def ws_url(self):
+        return self.url.replace("http", "ws")
+
+    def client(self, **more):
+        return httpx.Client(base_url=self.url, timeout=20, trust_env=False, **more)
+
+
+@contextmanager
+def running(data, settings=QUICK, station=STAND_IN, config=None, built=Path("nowhere")):
+    """Serve until the block ends; fails when the shutdown hangs."""
+    app = create_app(config or Config(demo=True), data, settings, built, station)
+    listener = socket.create_server(("127.0.0.1", 0))
+    server = uvicorn.Server(
+        uvicorn.Config(app, log_config=None, ws_per_message_deflate=False, timeout_graceful_shutdown=2)
+    )
+    thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
+    thread.start()
+    while not server.started and thread.is_alive():
+        thread.join(0.01)
+    try:
+        if not server.started:
+            raise app.state.failure
+        yield Running(f"http://127.0.0.1:{listener.getsockname()[1]}", app, data)
+    finally:
+        server.should_exit = True
+        thread.join(20)
+        listener.close()
+        assert not thread.is_alive()
+
+
+@pytest.fixture(scope="session")
+def shared(tmp_path_factory):
+    """One service for all tests that leave no trace but rows."""
+    with running(tmp_path_factory.mktemp("shared")) as service:
+        with service.client() as client:
+            client.post("/api/setup", json={"name": NAME, "password": PASSWORD}).raise_for_status()
+        yield service
+
+
+@pytest.fixture
+def stranger(shared):
+    """Somebody who is not logged in."""
+    with shared.client() as client:
+        yield client
+
+
+@pytest.fixture
+def therapist(shared):
+    """Somebody who is."""
+    with as_therapist(shared) as client:
+        yield client
+
+
+@contextmanager
+def as_therapist(service):
+    """A client of somebody who is logged in; makes the first account where there is none."""
+    auth = service.service.auth
+    account = (auth.set_up if auth.is_first_start() else auth.log_in)(NAME, PASSWORD, "test")[0]
+    with service.client() as client:
+        client.cookies.set(COOKIE, auth.open_login(account))
+        yield client
+
+
+@pytest.fixture
+def serving():
+    """`running`, for tests that start and end services of their own."""
+    return running
+
+
+@pytest.fixture
+def logged_in():
+    """`as_therapist`, likewise."""
+    return as_therapist
+
+
+@pytest.fixture
+def alone(tmp_path):
+    """A service that this test may break."""
+    with running(tmp_path) as service:
+        yield service
+
+
+@pytest.fixture
+def person(alone):
+    """Somebody logged in to `alone`."""
+    with as_therapist(alone) as client:
+        yield client
+
+
+@pytest.fixture
+def enrol():
+    """Enrols a patient whose healthy side is the right one."""
+
+    def enrolled(client, name="Wang"):
+        answer = client.post("/api/patients", json={"name": name, "healthy_side": "right"})
+        return answer.raise_for_status().json()
+
+    return enrolled
+
+
+@pytest.fixture
+def new_patient(therapist, enrol):
+    """Enrols a patient with the shared service."""
+    return lambda name="Wang": enrol(therapist, name)

@@ -1,0 +1,78 @@
+"""Patients over REST, and errors in plain words."""
+
+import pytest
+
+
+def test_a_patient_is_enrolled_listed_read_and_changed(therapist, new_patient):
+    made = new_patient("Zhao")
+    assert made["healthy_side"] == "right"
+    assert made["passive_range"]["elbow"]["max_rad"] > 2
+    assert made in therapist.get("/api/patients").json()
+    changed = therapist.patch(f"/api/patients/{made['id']}", json={"notes": "tires quickly"}).json()
+    assert changed["notes"] == "tires quickly"
+    assert therapist.get(f"/api/patients/{made['id']}").json() == changed
+    assert {k: v for k, v in changed.items() if k not in ("notes", "updated_at")} == {
+        k: v for k, v in made.items() if k not in ("notes", "updated_at")
+    }
+
+
+def test_a_patients_range_is_kept(therapist):
+    narrow = {joint: {"min_rad": 0.1, "max_rad": 0.9} for joint in ("plane", "elevation", "rotation", "elbow")}
+    form = {"name": "Sun", "healthy_side": "left", "passive_range": narrow}
+    assert therapist.post("/api/patients", json=form).json()["passive_range"] == narrow
+
+
+@pytest.mark.parametrize(
+    ("form", "named"),
+    [
+        ({}, "name"),
+        ({"name": "", "healthy_side": "left"}, "name"),
+        ({"name": "   ", "healthy_side": "left"}, "name"),
+        ({"name": "Wu", "healthy_side": "up"}, "healthy_side"),
+        ({"name": "Wu", "healthy_side": "left", "passive_range": {"elbow": {"min_rad": 2, "max_rad": 1}}}, "elbow"),
+        ({"name": "Wu", "healthy_side": "left", "passive_range": {"elbow": {"min_rad": 0, "max_rad": 99}}}, "elbow"),
+        ({"name": "Wu", "healthy_side": "left", "is_admin": True}, "is_admin"),
+    ],
+)
+def test_a_wrong_form_is_refused_by_the_name_of_its_field(therapist, form, named):
+    answer = therapist.post("/api/patients", json=form)
+    assert answer.status_code == 422
+    detail = answer.json()["detail"]
+    assert set(detail) == {"what", "expected", "remedy"}
+    assert named in detail["what"]
+
+
+def test_a_form_that_is_no_json_is_refused(therapist):
+    answer = therapist.post("/api/patients", content=b"{", headers={"content-type": "application/json"})
+    assert answer.status_code == 422
+    assert answer.json()["detail"]["what"]
+
+
+@pytest.mark.parametrize("path", ["/api/patients/999", "/api/patients/999/sessions", "/api/sessions/999"])
+def test_what_does_not_exist_is_named(therapist, path):
+    answer = therapist.get(path)
+    assert answer.status_code == 404
+    assert "999" in answer.json()["detail"]["what"]
+
+
+def test_a_number_that_is_none_is_refused_in_plain_words(therapist):
+    answer = therapist.get("/api/patients/first")
+    assert answer.status_code == 422
+    assert "patient_id" in answer.json()["detail"]["what"]
+
+
+@pytest.mark.parametrize("path", ["/api", "/api/", "/api/nothing", "/api/patients/1/nothing", "/api/../api/x"])
+def test_an_unknown_route_is_a_json_404(therapist, path):
+    answer = therapist.get(path)
+    assert answer.status_code == 404
+    assert answer.json()["detail"]["what"]
+
+
+def test_a_wrong_method_is_answered_in_the_same_form(therapist):
+    answer = therapist.put("/api/patients", json={})
+    assert answer.status_code in (404, 405)
+    assert answer.json()["detail"]["what"]
+
+
+def test_games_are_listed(therapist):
+    assert {"name": "reach"} in therapist.get("/api/games").json()

@@ -1,0 +1,252 @@
+"""A session from patient to saved metrics, and what becomes of it when something dies."""
+
+import os
+import signal
+import sqlite3
+import time
+
+import pytest
+
+
+def opened(client, patient, **more):
+    """Open a session for a patient whose healthy side is the right one."""
+    form = {"patient_id": patient["id"], "confirmed_affected_side": "left", "pain_before": 2, **more}
+    return client.post("/api/sessions", json=form)
+
+
+def control(client, session, action):
+    return client.post(f"/api/sessions/{session['id']}/control", json={"action": action})
+
+
+def end(client, session, **form):
+    return client.post(f"/api/sessions/{session['id']}/end", json=form)
+
+
+def until(condition):
+    """Wait for something that happens in another process."""
+    for _ in range(400):
+        found = condition()
+        if found:
+            return found
+        time.sleep(0.025)
+    return pytest.fail("it did not happen")
+
+
+@pytest.fixture
+def session(therapist, new_patient):
+    """An open session; ended afterwards if the test did not."""
+    made = opened(therapist, new_patient()).raise_for_status().json()
+    yield made
+    current = therapist.get("/api/sessions/current").json()
+    if current:
+        end(therapist, current).raise_for_status()
+
+
+def test_a_session_runs_from_patient_to_saved_metrics(shared, therapist, new_patient):
+    patient = new_patient("Qian")
+    session = opened(therapist, patient).json()
+    assert (session["status"], session["affected_side"], session["pain_before"]) == ("open", "left", 2)
+    assert therapist.get("/api/sessions/current").json() == session
+    assert control(therapist, session, "start").json()["state"] == "engaged"
+    time.sleep(3)
+    ended = end(therapist, session, pain_after=1).json()
+    assert (ended["status"], ended["pain_after"], ended["measured"]) == ("ended", 1, True)
+    figures = {metric["name"] for metric in ended["metrics"]}
+    assert figures
+    assert all(metric["value"] is not None and metric["label"] for metric in ended["metrics"])
+    assert therapist.get("/api/sessions/current").json() is None
+    assert therapist.get(f"/api/sessions/{session['id']}").json() == ended
+    assert therapist.get(f"/api/patients/{patient['id']}/sessions").json() == [ended]
+    events = therapist.get(f"/api/sessions/{session['id']}/events").json()
+    kinds = [event["kind"] for event in events]
+    assert kinds[0] == "opened"
+    assert "control" in kinds
+    assert {"before": "ready", "after": "engaged"} in [event["data"] for event in events]
+
+
+def test_curves_come_from_the_recording_and_are_kept(shared, therapist, session):
+    control(therapist, session, "start")
+    time.sleep(0.5)
+    end(therapist, session).raise_for_status()
+    path = f"/api/sessions/{session['id']}/curves"
+    curves = therapist.get(path).json()
+    count = len(curves["t_s"])
+    assert 5 < count <= 1500
+    assert curves["t_s"] == sorted(curves["t_s"])
+    for arm in ("healthy_rad", "affected_rad"):
+        assert {len(curve) for curve in curves[arm].values()} == {count}
+    assert set(curves["state"]) >= {"ready", "engaged"}
+    (recording,) = (shared.data / "recordings").glob(f"*{session['id']:06d}.mcap")
+    recording.unlink()
+    assert therapist.get(path).json() == curves
+
+
+def test_a_second_session_is_refused(therapist, session, new_patient):
+    answer = opened(therapist, new_patient("Li"))
+    assert answer.status_code == 409
+    assert "open" in answer.json()["detail"]["what"]
+
+
+def test_the_wrong_side_is_refused_by_name(therapist, new_patient):
+    answer = opened(therapist, new_patient("Zhou"), confirmed_affected_side="right")
+    assert answer.status_code == 409
+    assert "left" in answer.json()["detail"]["what"]
+    assert therapist.get("/api/sessions/current").json() is None
+
+
+@pytest.mark.parametrize(
+    ("form", "status"),
+    [
+        ({"patient_id": 999}, 404),
+        ({"game": "chess"}, 422),
+        ({"pain_before": 11}, 422),
+        ({"level": 2}, 422),
+    ],
+)
+def test_a_session_that_cannot_be_is_refused(therapist, new_patient, form, status):
+    answer = opened(therapist, new_patient("Wu"), **form)
+    assert answer.status_code == status
+    assert set(answer.json()["detail"]) == {"what", "expected", "remedy"}
+
+
+def test_a_range_that_the_device_does_not_have_is_refused(therapist):
+    full = {"min_rad": 0.0, "max_rad": 1.0}
+    beyond = {"plane": full, "elevation": full, "rotation": full, "elbow": {"min_rad": 3.0, "max_rad": 3.1}}
+    form = {"name": "Zheng", "healthy_side": "right", "passive_range": beyond}
+    answer = opened(therapist, therapist.post("/api/patients", json=form).json())
+    assert answer.status_code == 409
+    assert "elbow" in answer.json()["detail"]["what"]
+
+
+def test_limits_lie_inside_the_patients_range_and_the_devices(therapist, session):
+    patient = therapist.get(f"/api/patients/{session['patient_id']}").json()
+    device = {joint["joint"]: joint for joint in therapist.get("/api/station").json()["device"]}
+    for joint in session["limits"]["joints"]:
+        for outer in (patient["passive_range"][joint["joint"]], device[joint["joint"]]):
+            assert outer["min_rad"] <= joint["min_rad"] < joint["max_rad"] <= outer["max_rad"]
+
+
+def test_a_session_that_the_station_refuses_leaves_nothing(therapist, new_patient):
+    patient = new_patient("refused")
+    answer = opened(therapist, patient)
+    assert answer.status_code == 409
+    assert "serviced" in answer.json()["detail"]["what"]
+    assert therapist.get(f"/api/patients/{patient['id']}/sessions").json() == []
+    assert therapist.get("/api/sessions/current").json() is None
+
+
+def test_every_control_reaches_the_arm(therapist, session):
+    states = [
+        control(therapist, session, action).json()["state"]
+        for action in ("start", "hold", "resume", "stop", "reset", "start")
+    ]
+    assert states == ["engaged", "hold", "engaged", "stopped", "ready", "engaged"]
+
+
+def test_what_the_station_refuses_is_a_409_with_its_reason(therapist, session):
+    answer = control(therapist, session, "resume")
+    assert answer.status_code == 409
+    assert "ready" in answer.json()["detail"]["what"]
+
+
+def test_a_person_may_say_which_body_is_the_patient(therapist, session):
+    answer = therapist.post(f"/api/sessions/{session['id']}/follow", json={"sensor": "left", "body": "3"})
+    assert answer.status_code == 200
+
+
+@pytest.mark.parametrize("route", ["control", "follow", "end"])
+def test_a_session_that_is_not_open_cannot_be_controlled(therapist, session, route):
+    form = {"control": {"action": "start"}, "follow": {"sensor": "a", "body": "b"}, "end": {}}[route]
+    assert therapist.post(f"/api/sessions/{session['id'] + 1}/{route}", json=form).status_code == 409
+
+
+def test_a_game_runs_while_the_arm_is_engaged(shared, therapist, session):
+    assert shared.service.therapy.view().phase == "preparing"
+    control(therapist, session, "start")
+    picture = until(lambda: shared.service.therapy._course.picture)
+    assert picture.game == "reach"
+    until(lambda: shared.service.therapy._course.picture.time_left_s < picture.time_left_s)
+    assert shared.service.therapy.view().phase == "running"
+
+
+# ---------------------------------------------------------------- when something dies
+
+
+def test_a_station_that_dies_interrupts_the_session_and_enables_nothing(alone, person, enrol):
+    session = opened(person, enrol(person, "dies")).json()
+    answer = control(person, session, "start")
+    assert answer.status_code == 409
+    station = until(lambda: (found := person.get("/api/station").json())["up"] and found)
+    assert (station["restarts"], station["state"]) == (1, "off")
+    again = control(person, session, "start")
+    assert again.status_code == 409
+    assert "restarted" in again.json()["detail"]["what"]
+    ended = end(person, session).json()
+    assert (ended["status"], ended["measured"]) == ("interrupted", True)
+    events = person.get(f"/api/sessions/{session['id']}/events").json()
+    assert any(event["kind"] == "interrupted" and "caught fire" in event["text"] for event in events)
+
+
+def test_a_station_that_is_killed_comes_back_off(alone, person, enrol):
+    first = alone.service.link.station_pid
+    os.kill(first, signal.SIGKILL)
+    until(lambda: alone.service.link.station_pid not in (None, first))
+    until(lambda: person.get("/api/station").json()["up"])
+    assert person.get("/api/station").json()["state"] == "off"
+    assert opened(person, enrol(person)).status_code == 201
+
+
+def test_a_station_that_does_not_answer_is_reported(alone, person, enrol, monkeypatch):
+    monkeypatch.setattr("server.api.station_link.ANSWER_WITHIN_S", 0.1)
+    monkeypatch.setattr("server.api.therapy.CLOSED_WITHIN_S", 0.1)
+    session = opened(person, enrol(person, "mute")).json()
+    answer = control(person, session, "start")
+    assert answer.status_code == 409
+    assert "answer" in answer.json()["detail"]["what"]
+    assert end(person, session).json()["status"] == "ended"
+
+
+def test_a_session_that_a_crash_left_open_is_measured_at_the_next_start(tmp_path, serving, logged_in, enrol):
+    with serving(tmp_path) as first, logged_in(first) as person:
+        session = opened(person, enrol(person)).json()
+        control(person, session, "start")
+        time.sleep(0.5)
+    with serving(tmp_path) as second, logged_in(second) as person:
+        recovered = until(lambda: (found := person.get(f"/api/sessions/{session['id']}").json())["measured"] and found)
+        assert recovered["status"] == "interrupted"
+        assert recovered["ended_at"] > recovered["started_at"]
+        assert recovered["metrics"]
+        assert person.get("/api/sessions/current").json() is None
+
+
+@pytest.fixture
+def impatient(monkeypatch):
+    """A database that waits for nobody."""
+    monkeypatch.setattr("db.sqlite._PRAGMAS", ("PRAGMA busy_timeout = 20", "PRAGMA journal_mode = WAL"))
+
+
+def test_a_database_that_refuses_the_end_loses_nothing(impatient, alone, person, enrol):
+    session = opened(person, enrol(person)).json()
+    control(person, session, "start")
+    other = sqlite3.connect(alone.data / "mirrorlimb.sqlite", isolation_level=None)
+    other.execute("BEGIN EXCLUSIVE")
+    answer = end(person, session)
+    other.execute("ROLLBACK")
+    other.close()
+    assert answer.status_code == 503
+    assert person.get("/api/sessions/current").json()["id"] == session["id"]
+    ended = end(person, session, pain_after=4).json()
+    assert (ended["status"], ended["measured"], ended["pain_after"]) == ("ended", True, 4)
+
+
+def test_a_recording_that_cannot_be_read_is_said_and_the_session_kept(alone, person, enrol):
+    session = opened(person, enrol(person)).json()
+    (recording,) = (alone.data / "recordings").glob("*.mcap")
+    recording.unlink()
+    ended = end(person, session).json()
+    assert (ended["status"], ended["measured"]) == ("ended", False)
+    kinds = until(lambda: [event["kind"] for event in person.get(f"/api/sessions/{session['id']}/events").json()])
+    assert "ended" in kinds
+    answer = person.get(f"/api/sessions/{session['id']}/curves")
+    assert answer.status_code == 422
+    assert str(recording.name) in answer.json()["detail"]["what"]
