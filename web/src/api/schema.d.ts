@@ -24,6 +24,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/games": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Games
+         * @description The games that can be chosen.
+         */
+        get: operations["list_games_api_games_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/login": {
         parameters: {
             query?: never;
@@ -677,6 +697,17 @@ export interface components {
             sensor: string;
         };
         /**
+         * GamePublic
+         * @description A game that can be chosen.
+         * @example {
+         *       "name": "reach"
+         *     }
+         */
+        GamePublic: {
+            /** Name */
+            name: string;
+        };
+        /**
          * GameView
          * @description Everything a scene needs to draw one instant.
          */
@@ -806,6 +837,7 @@ export interface components {
             caveat: string;
             /**
              * Joint
+             * @description Or the sensor, in a sensor's figures.
              * @default
              */
             joint: string;
@@ -887,6 +919,29 @@ export interface components {
         /**
          * PatientCreate
          * @description What a therapist fills in at enrolment.
+         * @example {
+         *       "healthy_side": "right",
+         *       "name": "Wang",
+         *       "notes": "tires quickly",
+         *       "passive_range": {
+         *         "elbow": {
+         *           "max_rad": 2.356194490192345,
+         *           "min_rad": 0
+         *         },
+         *         "elevation": {
+         *           "max_rad": 1.7453292519943295,
+         *           "min_rad": 0
+         *         },
+         *         "plane": {
+         *           "max_rad": 2.0943951023931953,
+         *           "min_rad": -0.3490658503988659
+         *         },
+         *         "rotation": {
+         *           "max_rad": 1.3962634015954636,
+         *           "min_rad": -1.0471975511965976
+         *         }
+         *       }
+         *     }
          */
         PatientCreate: {
             /**
@@ -945,6 +1000,9 @@ export interface components {
         /**
          * PatientUpdate
          * @description What a therapist may change later; whatever is left out stays.
+         * @example {
+         *       "notes": "no longer tires"
+         *     }
          */
         PatientUpdate: {
             /** Healthy Side */
@@ -1304,6 +1362,44 @@ export interface operations {
             };
             /** @description Not allowed from here */
             403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
+    list_games_api_games_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["GamePublic"][];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
                 headers: {
                     [name: string]: unknown;
                 };

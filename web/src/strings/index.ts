@@ -52,7 +52,7 @@ export function t(key: Key, values: Record<string, string | number> = {}): strin
 
 /** True if `key` names a text: for keys that are put together from what the service says. */
 export function isKey(key: string): key is Key {
-  return key in en;
+  return Object.hasOwn(en, key);
 }
 
 export function fill(text: string, values: Record<string, string | number>): string {

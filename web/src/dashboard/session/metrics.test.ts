@@ -1,0 +1,59 @@
+import { describe, expect, test } from "vitest";
+import type { Metric } from "../../api/types";
+import { keyMetrics } from "./key-metrics";
+import { amountOf, caveatsOf, fullNameOf, grouped } from "./metrics";
+
+const metric = (name: string, value: number | null, unit = "1", rest: Partial<Metric> = {}): Metric => ({
+  name,
+  value,
+  unit,
+  joint: "",
+  side: "",
+  label: `metric.${name}`,
+  caveat: "",
+  ...rest,
+});
+
+describe("a figure", () => {
+  test("is said in everyday units", () => {
+    expect(amountOf(metric("range_of_movement", Math.PI / 2, "rad"))).toBe("90°");
+    expect(amountOf(metric("trunk_displacement", 0.034, "m"))).toBe("3.4 cm");
+    expect(amountOf(metric("success_rate", 0.874))).toBe("87 %");
+    expect(amountOf(metric("movements", 41))).toBe("41");
+    expect(amountOf(metric("time_engaged", 244.2, "s"))).toBe("244 s");
+  });
+
+  test("that could not be measured says so", () => {
+    expect(amountOf(metric("sparc", null))).toBe("not known");
+  });
+
+  test("that has no name here yet keeps the service's", () => {
+    expect(fullNameOf(metric("grip_force", 3, "N"))).toBe("grip force");
+    expect(amountOf(metric("grip_force", 3, "N"))).toBe("3.00 N");
+  });
+});
+
+describe("the groups", () => {
+  test("hold every figure once, also a new kind", () => {
+    const all = ["movements", "sparc", "range_lowest", "lag", "time_hold", "sensor_residual", "grip_force"].map(
+      (name) => metric(name, 1),
+    );
+    const groups = grouped(all);
+    expect(groups.flatMap((group) => group.metrics)).toHaveLength(all.length);
+    expect(groups.at(-1)).toMatchObject({ id: "other", metrics: [{ name: "grip_force" }] });
+  });
+
+  test("say a caveat once", () => {
+    const caveat = "caveat.passive_drive";
+    expect(caveatsOf([metric("lag", 1, "s", { caveat }), metric("symmetry", 1, "1", { caveat })])).toHaveLength(1);
+  });
+});
+
+describe("the key figures", () => {
+  test("are the healthy arm's", () => {
+    const ranges = (["right", "left"] as const).map((side) =>
+      metric("range_of_movement", 1, "rad", { joint: "elevation", side }),
+    );
+    expect(keyMetrics(ranges, "left")).toEqual([ranges[1]]);
+  });
+});
