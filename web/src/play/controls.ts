@@ -22,6 +22,8 @@ export function addControls(root: HTMLElement, page: HTMLElement, sound: Sound):
     fullScreen.hidden = document.fullscreenElement !== null;
   });
   onLanguage(name);
+  // The first touch anywhere lets the sound be heard.
+  document.addEventListener("click", name);
   name();
 }
 

@@ -12,6 +12,7 @@ import {
   RingGeometry,
   Vector3,
 } from "three";
+import { dispose } from "./dispose";
 import { glowTexture } from "./textures";
 
 const PETALS = 36;
@@ -66,15 +67,6 @@ class Burst {
     this.ring.scale.setScalar(0.07 + 0.2 * (1 - left ** 3));
     this.ring.material.opacity = left ** 2;
   }
-
-  dispose(): void {
-    this.group.traverse((part) => {
-      if (part instanceof Points || part instanceof Mesh) {
-        part.geometry.dispose();
-        part.material.dispose();
-      }
-    });
-  }
 }
 
 export class Effects {
@@ -93,7 +85,7 @@ export class Effects {
     for (const burst of this.bursts) burst.animate(dt_s, camera);
     for (const burst of this.bursts.filter((one) => one.over)) {
       this.group.remove(burst.group);
-      burst.dispose();
+      dispose(burst.group);
     }
     this.bursts = this.bursts.filter((one) => !one.over);
   }

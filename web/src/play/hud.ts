@@ -45,7 +45,7 @@ export class Hud {
     );
   }
 
-  /** Says aloud what just happened; `said` says nothing twice. */
+  /** Lets a screen reader say the points after a hit. */
   announce(changes: Changes, view: GameView): void {
     if (changes.hits > 0) setText(this.spoken, t("play.said.score", { score: view.score }));
   }

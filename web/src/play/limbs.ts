@@ -2,6 +2,7 @@
 import { Group, type Vector3 } from "three";
 import type { LiveMessage } from "../api/types";
 import { Arm, poseOf } from "./arm";
+import { dispose } from "./dispose";
 import type { Side } from "./hand-shape";
 import { affectedSide } from "./screen";
 import { Follower } from "./smoothing";
@@ -52,6 +53,7 @@ export class Limbs {
 
   private turnTo(side: Side): void {
     if (this.pair?.side === side) return;
+    dispose(this.group);
     this.group.clear();
     this.acting.forget();
     this.leading.forget();

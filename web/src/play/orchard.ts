@@ -1,6 +1,7 @@
 // The targets of the moment: made, moved and let go as the pictures of the game say.
-import { type Camera, Group, Mesh, Vector3 } from "three";
+import { type Camera, Group, Vector3 } from "three";
 import type { Changes, GameView } from "./changes";
+import { dispose } from "./dispose";
 import { Target } from "./target";
 
 export class Orchard {
@@ -55,9 +56,7 @@ export class Orchard {
 
   private remove(target: Target): void {
     this.group.remove(target.group);
-    target.group.traverse((part) => {
-      if (part instanceof Mesh) part.geometry.dispose();
-    });
+    dispose(target.group);
   }
 }
 

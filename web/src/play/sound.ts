@@ -36,18 +36,21 @@ export class Sound {
 
   constructor() {
     const wake = () => this.wake();
-    addEventListener("pointerdown", wake);
-    addEventListener("keydown", wake);
+    document.addEventListener("click", wake);
+    document.addEventListener("keydown", wake);
   }
 
+  /** True while nothing can be heard: switched off, or nobody has touched the page yet. */
   get muted(): boolean {
-    return this.silenced;
+    return this.silenced || this.context === null;
   }
 
+  /** To be called from a person's click. */
   mute(silenced: boolean): void {
     this.silenced = silenced;
     localStorage.setItem(REMEMBERED_AS, silenced ? "yes" : "no");
-    if (!silenced) this.play("hit");
+    this.wake();
+    this.play("hit");
   }
 
   play(cue: Cue): void {

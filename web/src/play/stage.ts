@@ -65,7 +65,7 @@ export class Stage {
   /** Draws fewer pixels for the sake of smooth movement. */
   coarsen(): void {
     this.pixelRatio = Math.max(COARSEST_PIXELS, this.pixelRatio * COARSER);
-    this.fit();
+    this.resize(this.pixelRatio);
   }
 
   /** Where a point of the trunk frame appears, in pixels of the page. */
