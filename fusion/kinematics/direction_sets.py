@@ -18,8 +18,6 @@ from fusion.messages import Floats, FusedFrame
 
 LENGTH_TOLERANCE_M: Final = 0.02
 """How far a learnt length may be from the true one (Kinect bone lengths vary by about this much with the pose)."""
-
-
 SAFETY: Final = 1.5
 """Errors across a segment are taken as at most this times those seen along it."""
 
@@ -46,13 +44,17 @@ def spread(frame: FusedFrame, start: int, end: int) -> Spread:
 
 
 def _reach(shape_m2: Floats, bound_m: float, axis: Floats) -> tuple[float, float]:
-    """Half-widths of one joint's set along `axis` and across it; the set lies in its ellipsoid and in its ball."""
+    """Half-widths of one joint's set along `axis` and across it; the set lies in its ellipsoid and in its ball.
+
+    Across: the larger eigenvalue of the shape projected on the plane, from that projection's trace and sum of squares.
+    """
+    if not np.isfinite(shape_m2).all():
+        return bound_m, bound_m
     image = shape_m2 @ axis
     along = float(axis @ image)
-    flat = (
-        shape_m2 - np.outer(image, axis) - np.outer(axis, image) + along * np.outer(axis, axis)
-    )  # (3, 3) on the plane
-    across = float(np.linalg.eigvalsh(flat)[-1]) if np.isfinite(flat).all() else np.inf
+    trace = float(shape_m2.trace()) - along
+    squares = float((shape_m2 * shape_m2).sum()) - 2.0 * float(image @ image) + along**2
+    across = 0.5 * (trace + _root(2.0 * squares - trace**2))
     return min(_root(along), bound_m), min(_root(across), bound_m)
 
 
