@@ -1,0 +1,69 @@
+"""Bones are learnt and judged, and a doubt lasts a while."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fusion.estimation import bones, trust
+from fusion.estimation.measurement import read
+from fusion.estimation.trust import STEADY_S, SensorTrust
+from fusion.messages import AlignedSample
+from fusion.skeleton import BONES, TrackingState
+
+from .scene import ELBOW, FRAME_S, HAND, SHOULDER, WRIST, body_at, both, changed, sample_at
+
+FOREARM = BONES.index(("ElbowRight", "WristRight"))
+
+
+def learnt(samples: list[AlignedSample]) -> SensorTrust:
+    known = trust.stranger("front")
+    for sample in samples:
+        _, known = trust.judge(known, sample.t_s, read(sample))
+    return known
+
+
+def of_front(seconds: float) -> list[AlignedSample]:
+    return [sample for sample in both(seconds) if sample.sensor == "front"]
+
+
+def test_a_length_is_learnt_to_a_centimetre_under_two_of_noise() -> None:
+    assert abs(learnt(of_front(4.0)).bones.length_m[FOREARM] - 0.25) < 0.01
+
+
+def test_a_few_wild_frames_do_not_spoil_a_length() -> None:
+    samples = of_front(4.0)
+    samples[60:65] = [changed(sample, WRIST, 2.0) for sample in samples[60:65]]
+    assert abs(learnt(samples).bones.length_m[FOREARM] - 0.25) < 0.01
+
+
+def test_nothing_is_called_wrong_before_a_length_is_known() -> None:
+    known = learnt(of_front(0.5))
+    assert not bones.wandering(known.bones, read(changed(sample_at(0.5), WRIST, 2.0))).any()
+
+
+def test_what_hangs_on_a_wandering_elbow_is_wandering_too() -> None:
+    known = learnt(of_front(2.0))
+    wandering = bones.wandering(known.bones, read(changed(sample_at(2.0), [ELBOW, WRIST, HAND], (0.0, -0.4, 0.0))))
+    assert wandering[[ELBOW, WRIST, HAND]].all()
+    assert not wandering[SHOULDER]
+
+
+def test_an_inferred_joint_is_doubted_and_for_a_while_after() -> None:
+    known = learnt([*of_front(1.0), changed(sample_at(1.0), WRIST, state=TrackingState.INFERRED)])
+    soon, _ = trust.judge(known, 1.0 + FRAME_S, read(sample_at(1.0 + FRAME_S)))
+    later, _ = trust.judge(known, 1.0 + STEADY_S + FRAME_S, read(sample_at(1.0 + STEADY_S + FRAME_S)))
+    assert soon.doubted[WRIST]
+    assert not soon.believed[WRIST]
+    assert later.believed[WRIST]
+    assert soon.believed[ELBOW]
+
+
+def test_a_joint_that_was_not_tracked_at_all_is_believed_when_it_is_tracked_again() -> None:
+    known = learnt([*of_front(1.0), changed(sample_at(1.0), WRIST, np.nan, state=TrackingState.LOST)])
+    verdict, _ = trust.judge(known, 1.0 + FRAME_S, read(sample_at(1.0 + FRAME_S)))
+    assert verdict.believed[WRIST]
+
+
+def test_the_scene_keeps_its_bones() -> None:
+    lengths = [np.linalg.norm(body_at(t)[WRIST] - body_at(t)[ELBOW]) for t in (0.0, 1.0, 2.5)]
+    np.testing.assert_allclose(lengths, 0.25)
