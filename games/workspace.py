@@ -19,6 +19,11 @@ MARGIN: Final = 0.1
 CANDIDATES: Final = 48
 IN_FRONT_M: Final = 0.15
 """Targets stand at least this far ahead of the shoulders, where the patient sees them."""
+HIGHEST_M: Final = 0.15
+"""Targets stand no higher than this above the shoulder: arms held overhead tire, and the eyes look ahead."""
+AWKWARD_M_PER_RAD: Final = 0.1
+"""What a turned humerus costs. With little rotation the elbow hangs below the line to the hand, as people reach; a
+target whose drawn pose is far from that would make them leave the ranges in which it was drawn."""
 NEAREST_STEP_M, FARTHEST_STEP_M = 0.15, 0.40
 """Way from one target to the next at level 0 and level 1."""
 CROWDED_M: Final = 0.15
@@ -87,12 +92,14 @@ def _at(ends: tuple[float, float], share: float) -> float:
 
 
 def _cost(reach: Reach, workspace: Workspace, wanted_m: float, hand: Point, recent: tuple[Point, ...]) -> float:
-    """How far a candidate is from what is wanted, in metres; being hidden or crowded costs more than a wrong way."""
+    """How far a candidate is from what is wanted, in metres; hidden, tiring or crowded costs more than a wrong way."""
     way_m = distance_m(reach.position, hand)
     behind_m = max(reach.position[2] - workspace.shoulder[2] + IN_FRONT_M, 0.0)
+    above_m = max(reach.position[1] - workspace.shoulder[1] - HIGHEST_M, 0.0)
     crowding_m = sum(max(CROWDED_M - distance_m(reach.position, other), 0.0) for other in recent)
     too_near_m = max(NEAREST_STEP_M - way_m, 0.0)
-    return abs(way_m - wanted_m) + 10.0 * behind_m + 2.0 * crowding_m + 3.0 * too_near_m
+    awkward_m = AWKWARD_M_PER_RAD * abs(reach.pose_rad[2])
+    return abs(way_m - wanted_m) + 10.0 * (behind_m + above_m) + 2.0 * crowding_m + 3.0 * too_near_m + awkward_m
 
 
 def distance_m(a: Point, b: Point) -> float:

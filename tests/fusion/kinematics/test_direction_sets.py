@@ -12,6 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fusion.kinematics.angles import arm_angles, arm_points_in_trunk, wrapped
+from fusion.kinematics.direction_sets import spread
 from fusion.messages import ArmLengths, Floats, FusedFrame, JointAngles, TrunkFrame
 from fusion.skeleton import JOINT_COUNT, Side, arm
 
@@ -166,3 +167,17 @@ def test_sets_that_grow_while_nobody_sees_the_arm_widen_its_bounds() -> None:
     assert bounds[0] < 0.35
     assert bounds[0] < bounds[1] < bounds[2]
     assert bounds[2] > 0.7
+
+
+@given(seed=st.integers(0, 9999))
+def test_the_widths_of_a_set_are_those_of_its_shadow(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    shapes = random_sets(rng, 0.1)
+    points = arm_points_in_trunk(0.8, 1.0, 0.2, 1.4, LENGTHS, Side.RIGHT, np.zeros(3))
+    axis = (points[1] - points[0]) / 0.28
+    plane = np.eye(3) - np.outer(axis, axis)
+    found = spread(frame_of(points, shapes), JOINTS[0], JOINTS[1])
+    assert found.along_m == pytest.approx(sum(np.sqrt(axis @ shape @ axis) for shape in shapes[:2]))
+    assert found.across_m == pytest.approx(
+        sum(np.sqrt(np.linalg.eigvalsh(plane @ shape @ plane)[-1]) for shape in shapes[:2])
+    )
