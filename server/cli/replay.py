@@ -41,7 +41,10 @@ def replay(
         if not loop:
             progress.update(bar, completed=length_s)
     if sender.unheard:
-        console.print(f"Nobody listened on {where} for at least a part of the time. Is `mirrorlimb serve` running?")
+        console.print(
+            f"Nobody listened on {where} for at least a part of the time. Is `mirrorlimb serve` running?",
+            soft_wrap=True,
+        )
 
 
 def _progress(console: Console) -> Progress:
