@@ -5,8 +5,8 @@ import { type ArmPose, backOfHand, forearmOf, handDirectionOf } from "./limb-lin
 import { LimbTube, profile } from "./limb-tube";
 import { TableShadow } from "./table-shadow";
 
-const SKIN = new Color("#d39a74");
-const SLEEVE = new Color("#2c6f8f");
+const SKIN = new Color("#e0aa86");
+const SLEEVE = new Color("#4f97bd");
 const BAND = new Color("#f0ead8");
 const GHOST = new Color("#ffffff");
 const GHOST_GLOW = new Color("#5a6a78");

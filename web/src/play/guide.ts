@@ -56,8 +56,8 @@ class Plumb {
 
 export class Guide {
   readonly group = new Group();
-  private readonly targetPlumb = new Plumb("#b3330a", 0.06);
-  private readonly handPlumb = new Plumb("#12507e", 0.04);
+  private readonly targetPlumb = new Plumb("#ffb347", 0.06);
+  private readonly handPlumb = new Plumb("#d4efff", 0.04);
   private readonly dots: InstancedMesh;
 
   constructor() {

@@ -9,8 +9,8 @@ export const SUN_DIRECTION = new Vector3(0.14, 1, 0.06).normalize();
 
 /** So much above the wood that the two never flicker. */
 const LIFT_M = 0.002;
-const SHADE = new Color("#3a2410");
-const DARKNESS = 0.38;
+const SHADE = new Color("#0d0602");
+const DARKNESS = 0.55;
 const BENEATH_ALL = -2;
 
 /** The shadows of a few meshes. */

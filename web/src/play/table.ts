@@ -13,7 +13,7 @@ const LEG_M = 0.5;
 
 export function table(): Group {
   const group = new Group();
-  const wood = new MeshBasicMaterial({ color: new Color("#a97c4f") });
+  const wood = new MeshBasicMaterial({ color: new Color("#5d3d27") });
   const top = new MeshBasicMaterial({ map: boardsTexture(DEPTH_M / BOARD_M, WIDTH_M / (2 * BOARD_M)) });
   const board = new Mesh(new BoxGeometry(WIDTH_M, THICKNESS_M, DEPTH_M), [wood, wood, top, wood, wood, wood]);
   board.position.set(0, TABLE_Y - THICKNESS_M / 2, NEAR_EDGE_Z - DEPTH_M / 2);

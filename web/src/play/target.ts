@@ -33,8 +33,8 @@ export class Target {
   private readonly facing = new Group();
   private readonly closing = ring(0.97, 1.03, "#ffffff", 0.95);
   private readonly closingEdge = ring(1.03, 1.075, "#1d3a52", 0.8);
-  private readonly track = ring(1.1, 1.3, "#1d3a52", 0.35);
-  private readonly arc = ring(1.1, 1.3, "#ffd23c", 1, ARC_STEPS);
+  private readonly track = ring(1.07, 1.36, "#1d3a52", 0.85);
+  private readonly arc = ring(1.12, 1.31, "#ffd23c", 1, ARC_STEPS);
   private readonly glow: Sprite;
   private age_s = 0;
   private leaving_s: number | null = null;

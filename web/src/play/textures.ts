@@ -12,6 +12,10 @@ function painted(width: number, height: number, paint: (brush: CanvasRenderingCo
   return texture;
 }
 
+const SEAM = "rgba(255,226,190,0.34)";
+const LINE = "rgba(255,226,190,0.16)";
+const GRAIN = "rgba(30,14,4,0.16)";
+
 let glow: CanvasTexture | undefined;
 
 /** A white spot that fades to nothing at its rim. */
@@ -35,14 +39,14 @@ export function boardsTexture(boards: number, linesAhead: number): CanvasTexture
   const texture = painted(1024, 512, (brush) => {
     const board = 512 / boards;
     for (let i = 0; i < boards; i++) {
-      const light = 74 + (i % 2 === 0 ? 3 : -2) + 1.5 * Math.sin(i * 2.4);
-      brush.fillStyle = `hsl(34 38% ${light}%)`;
+      const light = 36 + (i % 2 === 0 ? 2.5 : -2) + 1.2 * Math.sin(i * 2.4);
+      brush.fillStyle = `hsl(24 34% ${light}%)`;
       brush.fillRect(0, i * board, 1024, board);
       grain(brush, i * board, board, i);
-      brush.fillStyle = "rgba(92,62,30,0.55)";
+      brush.fillStyle = SEAM;
       brush.fillRect(0, i * board, 1024, 2.5);
     }
-    brush.fillStyle = "rgba(92,62,30,0.22)";
+    brush.fillStyle = LINE;
     for (let i = 1; i < linesAhead; i++) brush.fillRect((i * 1024) / linesAhead - 1, 0, 2, 512);
   });
   texture.anisotropy = 2;
@@ -50,7 +54,7 @@ export function boardsTexture(boards: number, linesAhead: number): CanvasTexture
 }
 
 function grain(brush: CanvasRenderingContext2D, top: number, height: number, seed: number): void {
-  brush.fillStyle = "rgba(120,84,44,0.10)";
+  brush.fillStyle = GRAIN;
   for (let k = 0; k < 5; k++) {
     const y = top + height * (0.15 + 0.17 * k);
     const start = (seed * 331 + k * 197) % 700;
