@@ -50,6 +50,7 @@ def build() -> None:
     digest = _digest(_sources())
     if _read(BUILT_STAMP) == digest:
         return
+    print("Building the browser side ...", flush=True)
     _install()
     _run_tool("vite", "build", "--logLevel", "warn", remedy="mend what is named above")
     BUILT_STAMP.write_text(digest)
@@ -102,7 +103,12 @@ def _install() -> None:
     npm = _node_home() / "lib" / "node_modules" / "npm" / "bin" / "npm-cli.js"
     if os.name == "nt":
         npm = _node_home() / "node_modules" / "npm" / "bin" / "npm-cli.js"
-    _run([_node(), str(npm), "ci", "--loglevel=error"], WEB, "is there a network, and does package-lock.json fit?")
+    _run(
+        [_node(), str(npm), "ci", "--loglevel=error"],
+        WEB,
+        "is there a network, and does package-lock.json fit?",
+        quiet=True,
+    )
     INSTALLED_STAMP.write_text(digest)
 
 

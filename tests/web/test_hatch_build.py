@@ -58,8 +58,10 @@ def test_unknown_errand_names_the_known_ones() -> None:
     assert "build, types, check" in done.stderr
 
 
-def test_any_changed_source_changes_the_digest(hatch_build: ModuleType, tmp_path: Path) -> None:
-    hatch_build.WEB = tmp_path
+def test_any_changed_source_changes_the_digest(
+    hatch_build: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(hatch_build, "WEB", tmp_path)
     source = tmp_path / "a.ts"
     source.write_text("1")
     first = hatch_build._digest([source])
@@ -68,7 +70,7 @@ def test_any_changed_source_changes_the_digest(hatch_build: ModuleType, tmp_path
 
 
 def test_a_failing_step_says_what_to_do(hatch_build: ModuleType) -> None:
-    with pytest.raises(hatch_build.WebBuildError, match="failed in .*: try this"):
+    with pytest.raises(hatch_build.WebBuildError, match=r"failed in .*: try this"):
         hatch_build._run([sys.executable, "-c", "raise SystemExit(3)"], ROOT, "try this")
 
 

@@ -1,5 +1,6 @@
 // Numbers and dates as people read them: degrees, millimetres, milliseconds.
 import { language } from "../strings";
+import { said } from "../strings/said";
 
 const DEGREES_PER_RAD = 180 / Math.PI;
 const NOTHING = "–";
@@ -52,7 +53,8 @@ export function clockTime(iso: string | undefined): string {
   return new Date(iso).toLocaleTimeString(language() === "zh" ? "zh-CN" : "en-GB");
 }
 
-/** A phrase of the service with a capital at its head. */
+/** Something the service said, in the language chosen and with a capital at its head. */
 export function sentence(phrase: string): string {
-  return phrase.charAt(0).toUpperCase() + phrase.slice(1);
+  const words = said(phrase);
+  return words.charAt(0).toUpperCase() + words.slice(1);
 }

@@ -1,6 +1,7 @@
 // What went wrong, what would have been right, and what to do.
 import type { Problem } from "../api/client";
 import { t } from "../strings";
+import { said } from "../strings/said";
 import { sentence } from "./format";
 
 interface Props {
@@ -19,8 +20,8 @@ export function ProblemBox({ problem, onClose, onRetry }: Props) {
       </span>
       <div class="problem-words">
         <strong>{sentence(what)}</strong>
-        {expected && <span>{t("problem.expected", { expected })}</span>}
-        {remedy && <span>{t("problem.remedy", { remedy })}</span>}
+        {expected && <span>{t("problem.expected", { expected: said(expected) })}</span>}
+        {remedy && <span>{t("problem.remedy", { remedy: said(remedy) })}</span>}
       </div>
       {onRetry && (
         <button type="button" onClick={onRetry}>

@@ -25,7 +25,7 @@ export function Sensors({ feed }: { feed: Feed }) {
 }
 
 function warningsOf({ sensor, warnings }: SensorView): string[] {
-  return warnings.map((warning) => `${sensor}: ${warning}`);
+  return warnings.map((warning) => `${sensor}: ${sentence(warning)}`);
 }
 
 function SensorTable({ sensors }: { sensors: readonly SensorView[] }) {

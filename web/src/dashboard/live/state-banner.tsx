@@ -1,13 +1,13 @@
 // The arm's state, large: sign, word, why, and what to do next.
-import type { DriveState, LiveTick } from "../../api/types";
+import type { LiveTick } from "../../api/types";
 import { t } from "../../strings";
 import { sentence } from "../format";
 import { type Feed, useFromFeed } from "./feed";
-import { StateSign } from "./state-sign";
+import { type BannerState, StateSign } from "./state-sign";
 
 export function StateBanner({ feed, children }: { feed: Feed; children: preact.ComponentChildren }) {
   const shown = useFromFeed(feed, 15, faceOf);
-  const { state, reason, next } = JSON.parse(shown) as Face;
+  const { state, reasons } = JSON.parse(shown) as Face;
   return (
     <section class={`state state-${state}`} aria-live="assertive">
       <div class="state-said">
@@ -16,7 +16,7 @@ export function StateBanner({ feed, children }: { feed: Feed; children: preact.C
           <div class="state-word" data-testid="state" data-state={state}>
             {t(`state.${state}`)}
           </div>
-          <div class="state-reason">{[reason, next || t(`state.${state}.next`)].filter(Boolean).join(" ")}</div>
+          <div class="state-reason">{[...reasons.map(asSentence), ...nextOf(state, reasons)].join(" ")}</div>
         </div>
       </div>
       {children}
@@ -25,27 +25,33 @@ export function StateBanner({ feed, children }: { feed: Feed; children: preact.C
 }
 
 interface Face {
-  state: DriveState | "lost";
-  reason: string;
-  /** What the service says is missing; "" where the usual next step is meant. */
-  next: string;
+  state: BannerState;
+  /** Why it is so, or what is still missing, in the service's words. */
+  reasons: readonly string[];
+}
+
+/** What to do next; where something is missing, its own words have said that already. */
+function nextOf(state: Face["state"], reasons: readonly string[]): string[] {
+  const isWaiting = (state === "ready" || state === "off") && reasons.length > 0;
+  return isWaiting ? [] : [t(`state.${state}.next`)];
 }
 
 /** The banner as text, so that it is drawn again only when it says something else. */
 function faceOf(feed: Feed): string {
-  const face: Face =
-    feed.link === "open" && feed.newest ? faceOfTick(feed.newest.tick) : { state: "lost", reason: "", next: "" };
-  return JSON.stringify(face);
+  return JSON.stringify(feed.link === "open" && feed.newest ? faceOfTick(feed.newest.tick) : faceWithout(feed));
 }
 
-function faceOfTick(tick: LiveTick): Face {
-  const waiting = (tick.state === "ready" || tick.state === "off") && !tick.may_enable;
-  const next = waiting ? tick.blockers.map(asSentence).join(" ") : "";
-  const reason = waiting && tick.blockers.includes(tick.reason) ? "" : tick.reason;
-  return { state: tick.state, reason: asSentence(reason), next };
+function faceWithout(feed: Feed): Face {
+  return { state: feed.link === "lost" ? "lost" : "connecting", reasons: [] };
+}
+
+/** Ready and moving explain themselves; what still blocks the way says more than the state's own reason. */
+function faceOfTick({ state, reason, may_enable, blockers }: LiveTick): Face {
+  const waits = (state === "ready" || state === "off") && !may_enable;
+  const tellsWhy = state === "hold" || state === "fault" || state === "stopped";
+  return { state, reasons: waits ? blockers : tellsWhy && reason ? [reason] : [] };
 }
 
 function asSentence(phrase: string): string {
-  if (!phrase) return "";
-  return /[.!?。！？]$/.test(phrase) ? sentence(phrase) : `${sentence(phrase)}.`;
+  return t("state.sentence", { words: sentence(phrase) });
 }

@@ -1,0 +1,24 @@
+import { expect, test } from "vitest";
+import { inChinese, said } from "./said";
+
+test("English stays as the service said it, without the full stop", () => {
+  expect(said("No sensor is aligned yet.")).toBe("No sensor is aligned yet");
+});
+
+test("a known sentence is said in Chinese, whatever stands at its head", () => {
+  expect(inChinese("No session is open")).toBe("没有进行中的治疗");
+  expect(inChinese("no session is open")).toBe("没有进行中的治疗");
+});
+
+test("blanks are carried over", () => {
+  expect(inChinese("Dr. Lin pressed stop")).toBe("Dr. Lin 按了“停止”");
+  expect(inChinese("Li's affected side is the left, not the right")).toContain("Li");
+});
+
+test("a sentence inside a sentence is said in Chinese too", () => {
+  expect(inChinese("No sensor sees the patient now; a person resumes")).toBe("目前没有传感器看到患者；请由人按“继续”");
+});
+
+test("an unknown sentence is not lost", () => {
+  expect(inChinese("The moon is full")).toBe("The moon is full");
+});
