@@ -68,10 +68,10 @@ class AlignmentLearner:
 
     def _search(self, reference: BodyTrack, sensor: BodyTrack) -> None:
         """Look for mounting and offset from nothing."""
-        found = fit_space_time(reference.thinned(LEARNING_FRAMES), sensor, LONGEST_OFFSET_S, candidates=2, rounds=4)
+        found = fit_space_time(reference, sensor, LONGEST_OFFSET_S, candidates=2, rounds=4, most=LEARNING_FRAMES)
         if found is None or found.frames < FEWEST_FRAMES:
             return
-        pairs = pair(reference.thinned(LEARNING_FRAMES // 2), sensor, found.clock_offset_s)
+        pairs = pair(reference, sensor, found.clock_offset_s, LEARNING_FRAMES // 2)
         self.fault = handedness_fault(pairs)
         if self.fault is None and trusted(found):
             self.alignment, self.moved = found, False
@@ -79,11 +79,11 @@ class AlignmentLearner:
 
     def _deepen(self, reference: BodyTrack, sensor: BodyTrack, now: SensorAlignment) -> None:
         """While the first frames are still in the window, weigh all of them anew; settle them when it is full."""
-        better = refine(reference.thinned(LEARNING_FRAMES), sensor, now.clock_offset_s, rounds=2, start=_mounting(now))
+        better = refine(reference, sensor, now.clock_offset_s, 2, LEARNING_FRAMES, _mounting(now))
         if better is not None and trusted(better):
             self.alignment = better
         if reference.t_s[-1] - (self._first_s or reference.t_s[0]) > WINDOW_S - SETTLE_EVERY_S:
-            pairs, fit = self._fit(reference.thinned(LEARNING_FRAMES), sensor, self.alignment or now, None)
+            pairs, fit = self._fit(reference, sensor, self.alignment or now, None)
             step = offset_step(pairs, fit.mounting, pairs.weight)
             self._settled = _Settled(fit.moments(pairs), step.information, float(reference.t_s[-1]) - 0.3, pairs.frames)
 
@@ -92,13 +92,13 @@ class AlignmentLearner:
         fresh = reference.since(settled.until_s)
         if len(fresh.t_s) < 2 or fresh.t_s[-1] - settled.until_s < SETTLE_EVERY_S:
             return
-        pairs = pair(fresh.thinned(LEARNING_FRAMES), sensor, now.clock_offset_s)
+        pairs = pair(fresh, sensor, now.clock_offset_s, LEARNING_FRAMES)
         if pairs.frames < FEWEST_FRAMES // 2:
             self._settled = _Settled(settled.moments, settled.offset_information, float(fresh.t_s[-1]), settled.frames)
             return
         if self._was_moved(pairs, now, float(fresh.t_s[-1])):
             return
-        pairs, fit = self._fit(fresh.thinned(LEARNING_FRAMES), sensor, now, settled.moments)
+        pairs, fit = self._fit(fresh, sensor, now, settled.moments)
         step = offset_step(pairs, fit.mounting, np.where(fit.swapped[:, None], 0.0, pairs.weight))
         share = step.information / max(step.information + settled.offset_information, 1e-9)
         fade = float(np.exp(-(fresh.t_s[-1] - settled.until_s) / MEMORY_S))
@@ -114,7 +114,7 @@ class AlignmentLearner:
     def _fit(
         self, reference: BodyTrack, sensor: BodyTrack, now: SensorAlignment, settled: Moments | None
     ) -> tuple[Pairs, RobustFit]:
-        pairs = pair(reference, sensor, now.clock_offset_s)
+        pairs = pair(reference, sensor, now.clock_offset_s, LEARNING_FRAMES)
         return pairs, fit_robustly(pairs, settled, start=_mounting(now))
 
     def _was_moved(self, pairs: Pairs, now: SensorAlignment, t_s: float) -> bool:

@@ -27,7 +27,7 @@ NARROWEST_M = 0.002
 MOST_ROUNDS = 40
 SETTLED = 1e-5
 """Radians and metres: no sensor is mounted more exactly."""
-POINTS_PER_INDEPENDENT = 100.0
+POINTS_PER_INDEPENDENT = 50.0
 """A skeleton's joints err together and for a second or so: this many points count as one when a deviation is stated."""
 
 

@@ -51,18 +51,22 @@ def offset_step(pairs: Pairs, under: Mounting, weight: np.ndarray) -> OffsetStep
         weight: (N, J), 0 for frames that were found swapped.
     """
     errors = under.errors(pairs)
-    velocity = pairs.velocity @ under.rotation.T
     distance = np.linalg.norm(errors, axis=2)
     kept = weight * np.clip(1 - (distance / OFFSET_CUTOFF_M) ** 2, 0, None) ** 2
-    information = float(np.einsum("nj,nji,nji->", kept, velocity, velocity))
-    change = float(np.einsum("nj,nji,nji->", kept, errors, velocity)) / max(information, 1e-9)
+    information = float(np.einsum("nj,nji,nji->", kept, pairs.velocity, pairs.velocity))
+    change = float(np.einsum("nj,nji,nji->", kept, errors, pairs.velocity)) / max(information, 1e-9)
     variance = float(np.einsum("nj,nj->", kept, distance**2)) / (3 * max(float(kept.sum()), 1e-9))
     information /= max(variance, OFFSET_NOISE_M**2) * POINTS_PER_INDEPENDENT
     return OffsetStep(change, information)
 
 
 def fit_space_time(
-    reference: BodyTrack, sensor: BodyTrack, longest_s: float = np.inf, candidates: int = 5, rounds: int = 10
+    reference: BodyTrack,
+    sensor: BodyTrack,
+    longest_s: float = np.inf,
+    candidates: int = 5,
+    rounds: int = 10,
+    most: int = MOST_FRAMES,
 ) -> SensorAlignment | None:
     """Mounting and clock offset of a sensor from everything two tracks hold; None where they never saw a body together.
 
@@ -75,14 +79,14 @@ def fit_space_time(
         longest_s: the largest absolute offset to consider.
         candidates: how many offsets to try.
         rounds: how often at most to alternate between mounting and offset.
+        most: how many frames to look at, evenly.
     """
     if min(len(reference.t_s), len(sensor.t_s)) < FEWEST_FRAMES:
         return None
-    thin = reference.thinned(MOST_FRAMES)
     starts = offset_candidates(reference, sensor, longest_s, candidates) or (OffsetCandidate(0.0, 1.0),)
-    few = thin.thinned(MOST_FRAMES // 4)
-    best = min(starts, key=lambda start: _unlikeness(refine(few, sensor, start.offset_s, rounds=2), start))
-    return refine(thin, sensor, best.offset_s, rounds)
+    few = most // 4
+    best = min(starts, key=lambda start: _unlikeness(refine(reference, sensor, start.offset_s, 2, few), start))
+    return refine(reference, sensor, best.offset_s, rounds, most)
 
 
 def _unlikeness(found: SensorAlignment | None, start: OffsetCandidate) -> float:
@@ -91,12 +95,17 @@ def _unlikeness(found: SensorAlignment | None, start: OffsetCandidate) -> float:
 
 
 def refine(
-    reference: BodyTrack, sensor: BodyTrack, offset_s: float, rounds: int, start: Mounting | None = None
+    reference: BodyTrack,
+    sensor: BodyTrack,
+    offset_s: float,
+    rounds: int,
+    most: int = MOST_FRAMES,
+    start: Mounting | None = None,
 ) -> SensorAlignment | None:
     """Settle mounting and offset near a first offset; None where the tracks have too few frames in common."""
     start_s = offset_s
     for _ in range(rounds):
-        pairs = pair(reference, sensor, offset_s)
+        pairs = pair(reference, sensor, offset_s, most)
         if pairs.frames < FEWEST_FRAMES:
             return None
         fit = fit_robustly(pairs, start=start)

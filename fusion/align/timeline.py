@@ -12,11 +12,13 @@ import numpy as np
 from scipy.fft import irfft, next_fast_len, rfft
 from scipy.signal import find_peaks
 
-from fusion.align.track import VELOCITY_SPAN_S, BodyTrack
+from fusion.align.track import BodyTrack
 from fusion.messages import Floats
 from fusion.skeleton import TrackingState
 
 GRID_HZ = 60.0
+SPEED_SPAN_S = 0.05
+"""Half the span over which speeds are taken; short, for a sharp peak."""
 FASTEST_M_S = 3.0
 """Faster than this is a wandering joint, not a limb in therapy; speeds are cut here."""
 LEAST_COMMON_SHARE = 0.5
@@ -64,10 +66,10 @@ def offset_candidates(
 def _speeds(track: BodyTrack) -> tuple[Floats, Floats]:
     """Speeds (M, J) on a steady grid with each joint's mean taken off, and where they are known."""
     grid = np.arange(track.t_s[0], track.t_s[-1], 1.0 / GRID_HZ)
-    ahead, seen_ahead = track.at(grid + VELOCITY_SPAN_S)
-    behind, seen_behind = track.at(grid - VELOCITY_SPAN_S)
+    ahead, seen_ahead = track.at(grid + SPEED_SPAN_S)
+    behind, seen_behind = track.at(grid - SPEED_SPAN_S)
     known = np.minimum(seen_ahead, seen_behind) == TrackingState.TRACKED
-    speeds = np.minimum(np.linalg.norm(ahead - behind, axis=2) / (2 * VELOCITY_SPAN_S), FASTEST_M_S)
+    speeds = np.minimum(np.linalg.norm(ahead - behind, axis=2) / (2 * SPEED_SPAN_S), FASTEST_M_S)
     mean = np.where(known, speeds, 0.0).sum(axis=0) / np.maximum(known.sum(axis=0), 1)
     return np.where(known, speeds - mean, 0.0), known.astype(np.float64)
 
@@ -107,7 +109,7 @@ class ReceiveClock:
     def __init__(self) -> None:
         self._older_s, self._newer_s = np.inf, np.inf
         self._window_ends_s = -np.inf
-        self._delays: deque[float] = deque(maxlen=90)
+        self._differences: deque[float] = deque(maxlen=90)
 
     def on_receive_clock(self, t_s: float, t_received_s: float) -> float:
         """Take a frame's two times; give its time on the receive clock."""
@@ -116,7 +118,7 @@ class ReceiveClock:
             self._older_s, self._newer_s = self._newer_s, difference
             self._window_ends_s = t_received_s + MINIMUM_WINDOW_S
         self._newer_s = min(self._newer_s, difference)
-        self._delays.append(difference - self.difference_s)
+        self._differences.append(difference)
         return t_s + self.difference_s
 
     @property
@@ -127,4 +129,4 @@ class ReceiveClock:
     @property
     def delay_s(self) -> float:
         """Median delay of the last frames beyond the least delay seen."""
-        return float(np.median(self._delays)) if self._delays else 0.0
+        return float(np.median(self._differences)) - self.difference_s if self._differences else 0.0

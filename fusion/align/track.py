@@ -11,8 +11,9 @@ from fusion.messages import Floats, SkeletonSample, States
 
 LONGEST_BRIDGE_S = 0.11
 """Interpolate over at most two missed frames of a 30 Hz sensor."""
-VELOCITY_SPAN_S = 0.05
-"""Half the span of the central difference that gives a joint's velocity."""
+VELOCITY_SPAN_S = 0.1
+"""Half the span of the central difference that gives a joint's velocity: a centimetre of noise makes 7 cm/s."""
+USUAL_RATE_HZ = 30.0
 STATE_WEIGHT = np.array([0.0, 1.0 / 16.0, 1.0])
 """Lost, inferred, tracked: inverse variances, an inferred joint being about four times as far off."""
 
@@ -76,7 +77,7 @@ class Pairs:
 
     reference: Floats  # (N, J, 3) m
     sensor: Floats  # (N, J, 3) m
-    velocity: Floats  # (N, J, 3) m/s in the sensor's frame; 0 where unknown
+    velocity: Floats  # (N, J, 3) m/s, of the reference's joints; 0 where unknown
     weight: Floats  # (N, J) 0 where either does not see the joint (positions there are 0)
 
     def __len__(self) -> int:
@@ -88,16 +89,31 @@ class Pairs:
         return int(np.count_nonzero((self.weight > 0).sum(axis=1) >= 4))
 
 
-def pair(reference: BodyTrack, sensor: BodyTrack, offset_s: float) -> Pairs:
-    """Bring the sensor's joints to the reference's instants, given t_reference = t_sensor - offset."""
-    t_s = reference.t_s + offset_s
-    positions, state = sensor.at(t_s)
-    velocity = sensor.velocities_at(t_s)
-    weight = STATE_WEIGHT[reference.state] * STATE_WEIGHT[state]
-    weight = np.where(np.isfinite(reference.positions).all(axis=2) & np.isfinite(positions).all(axis=2), weight, 0.0)
+def _frames_stood_for(t_s: Floats) -> float:
+    """How many frames of a 30 Hz sensor each frame of a thinned track stands for."""
+    return max(1.0, float(np.median(np.diff(t_s))) * USUAL_RATE_HZ) if len(t_s) > 1 else 1.0
+
+
+def pair(reference: BodyTrack, sensor: BodyTrack, offset_s: float, most: int | None = None) -> Pairs:
+    """Bring the sensor's joints to the reference's instants, given t_reference = t_sensor - offset.
+
+    The velocity is the reference's: taken around its own frames it shares no noise with their positions, where one
+    taken between the sensor's frames would, and would pull the offset.
+
+    Args:
+        reference: whose instants count.
+        sensor: interpolated to them.
+        offset_s: of the sensor's clock.
+        most: how many frames to take, evenly; all of them when None.
+    """
+    few = reference.thinned(most or len(reference.t_s))
+    positions, state = sensor.at(few.t_s + offset_s)
+    velocity = reference.velocities_at(few.t_s)
+    weight = STATE_WEIGHT[few.state] * STATE_WEIGHT[state] * _frames_stood_for(few.t_s)
+    weight = np.where(np.isfinite(few.positions).all(axis=2) & np.isfinite(positions).all(axis=2), weight, 0.0)
     seen = (weight > 0)[..., None]
     return Pairs(
-        np.where(seen, reference.positions, 0.0),
+        np.where(seen, few.positions, 0.0),
         np.where(seen, positions, 0.0),
         np.where(seen, np.nan_to_num(velocity), 0.0),
         weight,

@@ -84,4 +84,4 @@ def _best(references: list[BodyTrack], tracks: list[BodyTrack]) -> tuple[SensorA
     if not able:
         return None, None
     found, a, b = min(able, key=lambda one: one[0].residual_m / float(np.sqrt(one[0].frames)))
-    return found, handedness_fault(pair(a.thinned(JUDGED_FRAMES), b, found.clock_offset_s))
+    return found, handedness_fault(pair(a, b, found.clock_offset_s, JUDGED_FRAMES))
