@@ -71,7 +71,7 @@ def _learnt(samples: Floats) -> ArmLengths:
 
 def _share(lengths_m: Floats, along_m: Floats) -> float:
     """How much of the sets a segment's length uses, at most 1."""
-    if len(lengths_m) < ENOUGH_TO_JUDGE or not (along_m > 0).all():
+    if len(lengths_m) < ENOUGH_TO_JUDGE or not (np.isfinite(along_m) & (along_m > 0)).all():
         return 1.0
     used = np.percentile(np.abs(lengths_m - np.median(lengths_m)) / along_m, NEARLY_ALL)
     return min(1.0, max(SAFETY * float(used), LEAST_SPREAD_M / float(np.median(along_m))))

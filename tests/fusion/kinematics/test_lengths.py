@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -96,3 +98,13 @@ def test_tight_sets_are_kept_whole() -> None:
 
 def test_too_few_frames_say_nothing_about_the_sets() -> None:
     assert scattered(0.0, count=15).upper_arm_share == 1.0
+
+
+@pytest.mark.parametrize("bound_m", [0.0, np.inf])
+def test_sets_without_a_size_are_kept_whole(bound_m: float) -> None:
+    frames = [replace(frame(0.11 * k), bound_m=np.full(JOINT_COUNT, bound_m)) for k in range(60)]
+    if np.isinf(bound_m):
+        frames = [replace(one, shape_m2=np.full((JOINT_COUNT, 3, 3), np.nan)) for one in frames]
+    found = learnt(frames)
+    assert found is not None
+    assert found.upper_arm_share == 1.0
