@@ -7,6 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fusion.estimation import motion_set
+from fusion.estimation.ellipsoid import Ellipsoids
 from fusion.estimation.motion_set import ACCELERATION_MAX, SPEED_MAX, MotionSet
 from fusion.skeleton import JOINT_COUNT
 
@@ -106,3 +107,14 @@ def test_in_silence_the_set_grows_no_faster_than_a_limb() -> None:
     motion = motion_set.begin(motion_set.anywhere(0.0), np.zeros((JOINT_COUNT, 3)), half, ALL)
     low, high = motion_set.extent(motion_set.move(motion, 1.0))
     assert (high - low <= 2 * (0.1 + SPEED_MAX * 1.0) + 1e-9).all()
+
+
+def test_a_limb_at_full_acceleration_from_a_known_state_stays_in_the_set() -> None:
+    exact = Ellipsoids(np.zeros((JOINT_COUNT, 3, 2)), np.broadcast_to(np.eye(2) * 1e-12, (JOINT_COUNT, 3, 2, 2)))
+    nowhere = np.zeros((JOINT_COUNT, 3))
+    for dt in (0.005, 0.03, 0.2):
+        motion = motion_set.move(MotionSet(0.0, exact, nowhere, nowhere), dt)
+        position = np.full((JOINT_COUNT, 3), ACCELERATION_MAX * dt**2 / 2)
+        velocity = np.full((JOINT_COUNT, 3), ACCELERATION_MAX * dt)
+        assert holds(motion, position, velocity).all()
+        assert holds(motion, -position, -velocity).all()

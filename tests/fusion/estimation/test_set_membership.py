@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -68,6 +70,17 @@ def test_the_point_is_in_the_set_and_the_bound_reaches_no_further_than_its_corne
         assert (frame.positions_in_room <= high).all()
         corner = np.maximum(high - frame.positions_in_room, frame.positions_in_room - low)
         assert (frame.bound_m <= np.linalg.norm(corner, axis=1) + 1e-9).all()
+
+
+def test_a_mean_that_has_left_the_set_is_put_back_into_it() -> None:
+    estimator, _ = run(list(both(2.0)))
+    state = estimator.snapshot()
+    assert isinstance(state, SetState)
+    low, high = motion_set.extent(state.motion)
+    estimator.restore(replace(state, track=replace(state.track, position=high + 0.5)))
+    np.testing.assert_array_equal(estimator.frame(state.track.t_s).positions_in_room, high)
+    estimator.restore(replace(state, track=replace(state.track, position=low - 0.5)))
+    np.testing.assert_array_equal(estimator.frame(state.track.t_s).positions_in_room, low)
 
 
 def test_shapes_are_symmetric_and_positive_definite() -> None:
