@@ -85,12 +85,22 @@ class Course:
             phase=self.phase,
         )
 
-    def goal(self, tick: LiveTick) -> DemoGoal:
-        """Where the virtual patient's healthy hand should go: the mirror image of the target."""
-        playing = self.picture is not None and self.picture.phase == "playing" and tick.state is DriveState.ENGAGED
-        target = self.picture.targets[0].position if playing and self.picture and self.picture.targets else None
-        mirrored = None if target is None else (-target[0], target[1], target[2])
-        return DemoGoal(hand_in_trunk=mirrored, healthy_side=self.plan.affected_side.other, exo_rad=tick.exo.angle_rad)
+
+def counted(picture: GameView | None) -> int:
+    """How many targets the game has counted, collected or not."""
+    return 0 if picture is None else picture.hits + picture.misses
+
+
+def goal(course: Course | None, tick: LiveTick) -> DemoGoal:
+    """Where the virtual patient's healthy hand should go: the mirror image of the target, or to rest."""
+    picture = None if course is None else course.picture
+    playing = picture is not None and picture.phase == "playing" and tick.state is DriveState.ENGAGED
+    target = picture.targets[0].position if picture is not None and playing and picture.targets else None
+    return DemoGoal(
+        hand_in_trunk=None if target is None else (-target[0], target[1], target[2]),
+        healthy_side=tick.healthy_side if course is None else course.plan.affected_side.other,
+        exo_rad=tick.exo.angle_rad,
+    )
 
 
 def _opened(plan: Plan, tick: LiveTick) -> Game:

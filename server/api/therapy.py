@@ -23,7 +23,7 @@ from fusion.skeleton import Side
 from games.catalogue import GAMES
 from games.game import GameView
 from server.api import session_store
-from server.api.course import Course, Plan
+from server.api.course import Course, Plan, counted, goal
 from server.api.forms import Action, Answer, Curves, Follow, SessionOpen
 from server.api.journal import Journal
 from server.api.limits import session_limits
@@ -81,14 +81,13 @@ class Therapy:
     def step(self, tick: LiveTick) -> GameView | None:
         """Take a tick: step the game, steer the demonstration's patient."""
         course = self._course
-        if course is None:
-            return None
-        before, picture = course.picture, course.step(tick)
-        if picture is not None and (before is None or before.hits + before.misses != picture.hits + picture.misses):
-            self._journal.note_score(course.plan.id, picture)
+        if course is not None:
+            before, after = course.picture, course.step(tick)
+            if after is not None and counted(after) != counted(before):
+                self._journal.note_score(course.plan.id, after)
         if self._config.demo:
-            self._link.steer_demonstration(course.goal(tick))
-        return picture
+            self._link.steer_demonstration(goal(course, tick))
+        return None if course is None else course.picture
 
     def view(self) -> SessionView | None:
         """The open session in a line."""

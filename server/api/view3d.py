@@ -38,7 +38,7 @@ class View3D:
         with redirect_stdout(StringIO()):  # it prints its own address, which nobody may use
             self._server = viser.ViserServer(host="127.0.0.1", port=0, label="mirrorlimb", verbose=False)
         self.port = self._server.get_port()
-        self._task = asyncio.create_task(self._draw(self._server), name="view3d")
+        self._task = asyncio.create_task(self._draw(self._server, _Panel(self._server), Scene(self._server)))
 
     async def close(self) -> None:
         """Stop drawing and close the server."""
@@ -49,18 +49,26 @@ class View3D:
             with redirect_stdout(StringIO()):
                 await asyncio.to_thread(self._server.stop)
 
-    async def _draw(self, server: viser.ViserServer) -> None:
-        server.gui.configure_theme(control_layout="collapsible", show_logo=False, show_share_button=False)
-        sensors = server.gui.add_checkbox("Sensors · 传感器", initial_value=True)
-        bounds = server.gui.add_checkbox("Bounds · 误差界", initial_value=False)
-        scene = Scene(server)
-        _place_camera(server)
+    async def _draw(self, server: viser.ViserServer, panel: _Panel, scene: Scene) -> None:
         with self._ticks.reading() as box:
             while True:
                 tick = await box.take()
                 if server.get_clients():
-                    _show(server, scene, tick, Shown(sensors.value, bounds.value))
+                    _show(server, scene, tick, panel.shown())
                 await asyncio.sleep(PERIOD_S)
+
+
+class _Panel:
+    """What a person may switch on and off, in viser's own panel."""
+
+    def __init__(self, server: viser.ViserServer) -> None:
+        server.gui.configure_theme(show_logo=False, show_share_button=False)
+        self._sensors = server.gui.add_checkbox("Sensors · 传感器", initial_value=True)
+        self._bounds = server.gui.add_checkbox("Bounds · 误差界", initial_value=False)
+        _place_camera(server)
+
+    def shown(self) -> Shown:
+        return Shown(sensors=self._sensors.value, bounds=self._bounds.value)
 
 
 def _show(server: viser.ViserServer, scene: Scene, tick: LiveTick, shown: Shown) -> None:
@@ -74,6 +82,7 @@ def _show(server: viser.ViserServer, scene: Scene, tick: LiveTick, shown: Shown)
 def _place_camera(server: viser.ViserServer) -> None:
     """Before the person, a little to the side and above, as somebody beside the reference sensor sees them."""
     camera = server.initial_camera
-    camera.position = (-1.3, 0.8, -0.6)
-    camera.look_at = (0.0, -0.1, 2.0)
+    camera.position = (-1.5, 0.9, -0.6)
+    camera.look_at = (0.0, -0.05, 1.9)
+    camera.fov = 0.8
     camera.up = (0.0, 1.0, 0.0)

@@ -71,7 +71,7 @@ class _SensorFigure:
         nothing = place_bones(NOWHERE, BONE_INDICES, 0.012)
         self._bones = _Batch(scene, f"{root}/bones", _CYLINDER, nothing, colour, FAINT)
         self._camera = scene.add_camera_frustum(
-            f"{root}/camera", fov=pi / 3, aspect=1.2, scale=0.15, color=colour, visible=False
+            f"{root}/camera", fov=pi / 3, aspect=1.2, scale=0.1, color=colour, visible=False
         )
         self._label = scene.add_label(f"{root}/camera/name", name)
 
@@ -102,6 +102,7 @@ class Scene:
         scene.set_up_direction("+y")
         scene.configure_environment_map(hdri=None)  # weak screens
         scene.configure_default_lights(cast_shadow=False)
+        scene.add_light_ambient("/light", intensity=1.5)  # the default lights leave the side that faces us dark
         self._floor = scene.add_grid("/floor", 6.0, 6.0, plane="xz", position=(0.0, -1.0, 2.0), shadow_opacity=0.0)
         self._bones = _Batch(scene, "/fused/bones", _CYLINDER, place_bones(NOWHERE, BONE_INDICES, 0.02), FUSED)
         self._joints = _Batch(scene, "/fused/joints", _BALL, place_balls(NOWHERE, 0.028), FUSED)

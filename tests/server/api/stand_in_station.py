@@ -7,11 +7,11 @@ import os
 import signal
 import sys
 import time
-from math import cos, sin
+from math import sin
 from pathlib import Path
 
 from fusion.recording.log import LogAbout, LogWriter
-from fusion.skeleton import JOINT_COUNT, Side
+from fusion.skeleton import JOINT_COUNT, JOINTS, Side
 from server.channels import StationChannels, encoded
 from server.config import read_start
 from server.messages import (
@@ -57,13 +57,45 @@ def arm(angle, side):
         elbow_rad=0.5 + angle / 4,
         valid=True,
         points_in_trunk=points,
-        points_in_room=points,
+        points_in_room=tuple(
+            joint_at(f"{part}{side.suffix}", angle) for part in ("Shoulder", "Elbow", "Wrist", "Hand")
+        ),
     )
+
+
+HEIGHTS_M = {"SpineBase": 0.0, "SpineMid": 0.25, "SpineShoulder": 0.5, "Neck": 0.57, "Head": 0.72}
+# Outward, up, towards the sensor, of a limb's joints; the sensor sees the person's right on its own left.
+LIMBS_M = {
+    "Shoulder": (0.18, 0.48, 0.0),
+    "Elbow": (0.35, 0.3, 0.05),
+    "Wrist": (0.35, 0.3, 0.3),
+    "Hand": (0.35, 0.32, 0.38),
+    "HandTip": (0.35, 0.33, 0.45),
+    "Thumb": (0.31, 0.35, 0.4),
+    "Hip": (0.1, -0.05, 0.0),
+    "Knee": (0.12, -0.45, 0.05),
+    "Ankle": (0.12, -0.85, 0.0),
+    "Foot": (0.13, -0.9, 0.12),
+}
+
+
+def body(angle):
+    """Somebody who stands 2 m before the sensor and moves both forearms."""
+    return tuple(joint_at(name, angle) for name in JOINTS)
+
+
+def joint_at(name, angle):
+    if name in HEIGHTS_M:
+        return (0.0, HEIGHTS_M[name], 2.0)
+    part, sign = (name[:-4], 1.0) if name.endswith("Left") else (name[:-5], -1.0)
+    outward, up, ahead = LIMBS_M[part]
+    lift = 0.3 * (angle - 0.5) if part in ("Wrist", "Hand", "HandTip", "Thumb") else 0.0
+    return (sign * outward, up + lift, 2.0 - ahead)
 
 
 def tick(index, t_s, state, session, healthy_side):
     angle = 0.5 + 0.4 * sin(2 * t_s)
-    joints = tuple((0.1 * k, cos(k), 2.0) for k in range(JOINT_COUNT))
+    joints = body(angle)
     sensor = SensorView(
         sensor="left",
         dialect="mirrorlimb",
