@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -119,6 +119,12 @@ class Pipeline:
         self._body.restart()
         self._lengths = LengthLearner()
         self._recent = self._target = None
+
+    def treat(self, healthy_side: Side) -> None:
+        """A session begins: this arm is the healthy one. What has been learnt of the sensors stays."""
+        self._settings = replace(self._settings, healthy_side=healthy_side)
+        self._lengths = LengthLearner()
+        self._target = None
 
     def fused_at(self, t_s: float) -> FusedFrame | None:
         """The body at `t_s`, however long nobody has seen it; None before the first sample."""

@@ -17,6 +17,7 @@ import os
 import tempfile
 from collections.abc import AsyncIterator
 from pathlib import Path
+from typing import Any
 
 import msgspec
 import zmq
@@ -54,6 +55,11 @@ def private_folder() -> Path:
     )
 
 
+def encoded(message: LiveTick | StationEvent) -> bytes:
+    """A tick or an event as the channels and the recording carry it (msgpack)."""
+    return _encoder.encode(message)
+
+
 def _address(folder: Path, name: str) -> str:
     return f"ipc://{folder / name}"
 
@@ -73,7 +79,7 @@ def _socket(
     return socket
 
 
-def _bind(socket: zmq.Socket[bytes], address: str) -> None:
+def _bind(socket: zmq.Socket[Any], address: str) -> None:
     try:
         socket.bind(address)
     except zmq.ZMQError as error:
@@ -115,7 +121,8 @@ class StationChannels:
         self._events = self._context.socket(zmq.PUSH)
         self._events.linger = 200  # ms: the last events ("closed") still leave when the station ends
         self._events.sndhwm = EVENTS_KEPT
-        _bind(self._events, _address(folder, "events"))
+        # The service binds this one: a connecting end queues from the start, a binding one would drop what comes early.
+        self._events.connect(_address(folder, "events"))
         self._pause = _socket(self._context, zmq.PUSH, _address(folder, "pause"), binds=True, conflate=True)
         self.events_dropped = 0
         self.wishes_refused = 0
@@ -128,13 +135,13 @@ class StationChannels:
         """Every other wish that has come since, in order."""
         return self._drained(self._wishes)
 
-    def publish(self, tick: LiveTick) -> None:
-        """Give the newest tick to whoever listens; replaces one that was not fetched."""
-        _sent(self._ticks, _encoder.encode(tick))
+    def publish(self, tick: bytes) -> None:
+        """Give the newest tick (`encoded`) to whoever listens; replaces one that was not fetched."""
+        _sent(self._ticks, tick)
 
-    def tell(self, event: StationEvent) -> None:
-        """Queue an event; dropped and counted where the queue is full."""
-        if not _sent(self._events, _encoder.encode(event)):
+    def tell(self, event: bytes) -> None:
+        """Queue an event (`encoded`); dropped and counted where the queue is full."""
+        if not _sent(self._events, event):
             self.events_dropped += 1
 
     def pause_demonstration(self, paused: bool) -> None:
@@ -158,10 +165,13 @@ class StationChannels:
 
 
 class ServiceChannels:
-    """The service's end, for asyncio. Make it inside the running loop.
+    """The service's end, for asyncio. Make it inside the running loop, before the station starts.
 
     Args:
         folder: the private folder, as given to the station.
+
+    Raises:
+        MachineError: a channel cannot be opened.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -176,7 +186,7 @@ class ServiceChannels:
         self._ticks.connect(_address(folder, "ticks"))
         self._events = self._context.socket(zmq.PULL)
         self._events.rcvhwm = EVENTS_KEPT
-        self._events.connect(_address(folder, "events"))
+        _bind(self._events, _address(folder, "events"))
         self._last_index = -1
         self.ticks_missed = 0
         """Ticks that a newer one replaced before they were fetched."""

@@ -34,7 +34,7 @@ class SensorsConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fi
     datagram_bytes: Annotated[int, Meta(ge=64, le=65507)] = 8192
     """Longer datagrams are refused and counted."""
     datagrams_per_tick: Count = 128
-    """At most so many datagrams are read in one tick; the rest wait, and the oldest are dropped and counted. One
+    """At most so many datagrams are read in one tick; the rest wait, and what the kernel cannot keep is counted. One
     body of `kinectv2-osc` is 27 datagrams, so two sensors with two bodies each fit even when all come at once."""
 
 

@@ -118,6 +118,7 @@ class DemoGoal(msgspec.Struct, frozen=True, kw_only=True):
 
     hand_in_trunk: Point | None
     """Where the *healthy* hand should go, in the patient's trunk frame; None = rest."""
+    healthy_side: Side = Side.RIGHT
     exo_rad: tuple[float, ...] = ()
     """The exoskeleton's measured angles (`EXO_JOINTS`): the affected arm is where it holds it."""
 

@@ -15,6 +15,7 @@ from server.station.exo.mapping import JointTarget
 
 ONE: Joints = (1.0,) * len(EXO_JOINTS)
 SHORTEST_STEP_S = 1e-4
+MOVED_BY_HAND_RAD = 0.05
 LONGEST_STEP_S = 0.02
 """A set-point never moves further than this much time allows, however late the tick."""
 
@@ -37,7 +38,14 @@ class SafetyState:
     """How long swing or elbow has been held by uncertainty."""
     facts: Facts = field(default_factory=Facts)
     """Of the last tick; what a person saw who wishes now."""
+    speed: Joints = ONE
+    """0..1 per joint: what uncertainty and age leave of its speed (SR-4)."""
     last_s: float | None = None
+
+    @property
+    def at_rest(self) -> bool:
+        """Whether every set-point stands still."""
+        return not any(motion.velocity_rad_s for motion in self.motions)
 
 
 def wish(state: SafetyState, wanted: Wish, now_s: float) -> tuple[SafetyState, str]:
@@ -80,17 +88,16 @@ def _judged(
     if not lost and frozen_s > (config.resume_within_s if engaged else 0.0):
         lost = "The healthy arm's position is too uncertain."
     blockers = evidence.blockers(target, inputs, free, config)
-    at_rest = not any(motion.velocity_rad_s for motion in state.motions)
-    if not at_rest and not engaged:
+    if not state.at_rest and not engaged:
         blockers = (*blockers, "The exoskeleton is still coming to rest.")
     facts = Facts(
         blockers,
         evidence.fault(inputs, engaged or state.gate.state is DriveState.HOLD),
         _silence(inputs, elapsed_s, config),
         lost,
-        at_rest and evidence.near(target, inputs, free, config),
+        state.at_rest and evidence.near(target, inputs, free, config),
     )
-    return replace(state, facts=facts, frozen_s=frozen_s)
+    return replace(state, facts=facts, frozen_s=frozen_s, speed=free)
 
 
 def _silence(inputs: SafetyInputs, elapsed_s: float, config: GateConfig) -> str:
@@ -122,14 +129,14 @@ def _follow(
     share = dt_s / config.blend_s
     blend = min(state.blend + share, 1.0)
     thaw = tuple(min(thawed + share, 1.0) if speed else 0.0 for thawed, speed in zip(state.thaw, free, strict=True))
+    speed = tuple(f * t for f, t in zip(free, thaw, strict=True))
     eased = blend * blend * (3 - 2 * blend)
     motions, clamped = [], []
     for i, (motion, box) in enumerate(zip(state.motions, inputs.boxes, strict=True)):
         goal = state.blend_from[i] + eased * (target.angle_rad[i] - state.blend_from[i])
-        speed = free[i] * thaw[i] * target.freedom[i]
-        motions.append(towards(motion, goal, eased * target.velocity_rad_s[i], box, speed, dt_s))
+        motions.append(towards(motion, goal, eased * target.velocity_rad_s[i], box, speed[i] * target.freedom[i], dt_s))
         clamped += _clamped(EXO_JOINTS[i], goal, free[i], box)
-    state = replace(state, motions=tuple(motions), blend=blend, thaw=thaw)
+    state = replace(state, motions=tuple(motions), blend=blend, thaw=thaw, speed=speed)
     return state, _command(DriveMode.FOLLOW, state, "", tuple(clamped))
 
 
@@ -144,15 +151,19 @@ def _clamped(joint: str, goal_rad: float, free: float, box: Box) -> list[str]:
 
 def _rest(state: SafetyState, inputs: SafetyInputs, dt_s: float) -> tuple[SafetyState, DriveCommand]:
     """Come to rest at full deceleration, then hold; before anything was enabled, hold where the arm is."""
-    if any(motion.velocity_rad_s for motion in state.motions):
+    if not state.at_rest:
         motions = tuple(to_rest(motion, box, dt_s) for motion, box in zip(state.motions, inputs.boxes, strict=True))
     elif state.gate.state in (DriveState.OFF, DriveState.READY) and not state.facts.fault:
-        motions = tuple(Motion(angle) for angle in inputs.reading.angle_rad)
+        motions = tuple(map(_kept, state.motions, inputs.reading.angle_rad))
     else:
         motions = state.motions
-    moving = any(motion.velocity_rad_s for motion in motions)
     state = replace(state, motions=motions)
-    return state, _command(DriveMode.FOLLOW if moving else DriveMode.HOLD, state, state.gate.reason, ())
+    return state, _command(DriveMode.HOLD if state.at_rest else DriveMode.FOLLOW, state, state.gate.reason, ())
+
+
+def _kept(motion: Motion, measured_rad: float) -> Motion:
+    """Where a joint is held; follows the arm only if somebody moves it, or its weight would pull it down bit by bit."""
+    return Motion(measured_rad) if abs(measured_rad - motion.angle_rad) > MOVED_BY_HAND_RAD else motion
 
 
 def _command(mode: DriveMode, state: SafetyState, reason: str, clamped: tuple[str, ...]) -> DriveCommand:

@@ -20,7 +20,8 @@ INTERPOLATED_S = 0.015
 """The drive carries a set-point on at its velocity for so long, as cyclic position drives interpolate."""
 KNOWN_LOAD = 0.9
 """Share of the true gravity that the drive's model knows: people are not all alike."""
-AT_REST: Joints = (0.6, 0.3, 0.0, 0.6)
+AT_REST: Joints = (0.9, 0.4, 0.2, 1.0)
+"""Where a seated patient's arm lies in it."""
 
 
 @dataclass(frozen=True, slots=True)

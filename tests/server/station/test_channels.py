@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from station_samples import live_tick
 
-from server.channels import DemonstrationChannels, ServiceChannels, StationChannels, private_folder
+from server.channels import DemonstrationChannels, ServiceChannels, StationChannels, encoded, private_folder
 from server.messages import DemoGoal, Enable, Hold, Stop, Warned, Wish
 
 
@@ -74,11 +74,11 @@ async def test_a_slow_listener_gets_the_newest_tick_and_counts_the_missed(folder
     index = 0
     first = asyncio.ensure_future(service.tick())
     while not first.done():  # the subscription takes a moment to arrive
-        station.publish(live_tick(index))
+        station.publish(encoded(live_tick(index)))
         index += 1
         await asyncio.sleep(0.005)
     for last in range(index, index + 500):
-        station.publish(live_tick(last))
+        station.publish(encoded(live_tick(last)))
     await asyncio.sleep(0.2)
     seen = (await service.tick()).index
     while seen < index + 499:  # one may already have been fetched ahead
@@ -95,11 +95,11 @@ async def test_events_wait_for_the_service_in_order_and_never_block(folder: Path
     service = ServiceChannels(folder)
     assert await service.connected(5)
     for number in range(200):
-        station.tell(Warned(t_s=float(number), code="test", text=""))
+        station.tell(encoded(Warned(t_s=float(number), code="test", text="")))
     assert [(await service.event()).t_s for _ in range(200)] == [float(number) for number in range(200)]
     service.close()
     for number in range(30_000):
-        station.tell(Warned(t_s=float(number), code="test", text=""))
+        station.tell(encoded(Warned(t_s=float(number), code="test", text="")))
     assert station.events_dropped > 0
     station.close()
 

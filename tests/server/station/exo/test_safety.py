@@ -37,6 +37,10 @@ def target(angle: tuple[float, ...] = AT_REST, **change: tuple[float, ...]) -> J
     return replace(JointTarget(angle, ZERO, SURE, FREE), **change)
 
 
+def moved(*by: float) -> tuple[float, ...]:
+    return tuple(rest + more for rest, more in zip(AT_REST, by, strict=True))
+
+
 @dataclass
 class Rig:
     """The gate in closed loop with the simulated drive, a tick at a time."""
@@ -157,7 +161,7 @@ def test_sr1_a_patients_range_is_cut_to_the_devices_own() -> None:
 def test_sr1_the_soft_margin_is_kept_for_a_target_outside_the_range_and_said() -> None:
     rig = engaged()
     for step in range(400):
-        rig.tick(target((0.6, 0.3, 0.0, min(0.6 + step * 0.01, 3.0))))
+        rig.tick(target((*AT_REST[:3], min(AT_REST[3] + step * 0.01, 3.0))))
     assert rig.command.angle_rad[3] == pytest.approx(LIMITS[3].max_rad - CONFIG.soft_margin_rad, abs=1e-3)
     assert any("elbow: at the end of its range" in words for words in rig.command.clamped)
 
@@ -204,10 +208,10 @@ def test_sr3_a_loop_that_stood_still_holds_until_a_person_resumes() -> None:
 
 
 def test_sr4_evidence_older_than_two_frames_slows_and_older_than_three_holds() -> None:
-    rig = engaged(target((0.6, 0.8, 0.0, 0.6)), seconds=0.8)
+    rig = engaged(target(moved(0.0, 0.5, 0.0, 0.0)), seconds=0.8)
     slow = 0.2 * LIMITS[1].velocity_rad_s
     assert abs(rig.command.velocity_rad_s[1]) > slow
-    rig.run(0.1, target((0.6, 0.8, 0.0, 0.6)), age_s=0.095)
+    rig.run(0.1, target(moved(0.0, 0.5, 0.0, 0.0)), age_s=0.095)
     assert rig.now is DriveState.ENGAGED
     assert abs(rig.command.velocity_rad_s[1]) < slow
     rig.tick(target(), age_s=0.101)
@@ -218,7 +222,7 @@ def test_sr4_evidence_older_than_two_frames_slows_and_older_than_three_holds() -
 
 
 def test_sr4_a_grown_bound_slows_the_joint_it_belongs_to_and_then_holds_it_alone() -> None:
-    wanted = target((0.9, 0.7, 0.3, 1.0))
+    wanted = target(moved(0.3, 0.3, 0.3, 0.4))
     rig = engaged(wanted, seconds=0.5)
     unsure = replace(wanted, bound_rad=(0.1, 0.1, 0.8, 0.1))
     rig.run(0.5, unsure)
@@ -227,7 +231,7 @@ def test_sr4_a_grown_bound_slows_the_joint_it_belongs_to_and_then_holds_it_alone
     assert rig.command.angle_rad[2] == pytest.approx(held, abs=1e-3)
     assert rig.now is DriveState.ENGAGED
     rig.run(2.0, unsure)
-    assert rig.command.angle_rad[3] == pytest.approx(1.0, abs=0.01)
+    assert rig.command.angle_rad[3] == pytest.approx(AT_REST[3] + 0.4, abs=0.01)
     assert any(words.startswith("rotation: held") for words in rig.command.clamped)
 
 
@@ -242,9 +246,9 @@ def test_sr4_a_swing_that_stays_uncertain_holds_the_arm() -> None:
 
 def test_sr4_a_joint_that_was_held_comes_back_slowly() -> None:
     rig = engaged(seconds=2.1)
-    unsure = target((0.6, 0.3, 0.0, 1.4), bound_rad=(0.1, 0.1, 0.1, 0.9))
+    unsure = target(moved(0.0, 0.0, 0.0, 0.8), bound_rad=(0.1, 0.1, 0.1, 0.9))
     rig.run(0.5, unsure)
-    rig.run(0.2, target((0.6, 0.3, 0.0, 1.4)))
+    rig.run(0.2, target(moved(0.0, 0.0, 0.0, 0.8)))
     assert abs(rig.command.velocity_rad_s[3]) < 0.2 * LIMITS[3].velocity_rad_s
 
 
@@ -261,12 +265,12 @@ def test_sr5_a_short_loss_is_resumed_through_a_new_blend_in() -> None:
 def test_sr5_a_short_loss_is_not_resumed_where_the_target_has_gone_far() -> None:
     rig = engaged(seconds=0.5)
     rig.run(0.5, None, age_s=0.2)
-    rig.run(3.0, target((0.6, 0.3, 0.0, 0.6 + CONFIG.resume_within_rad + 0.1)))
+    rig.run(3.0, target((*AT_REST[:3], AT_REST[3] + CONFIG.resume_within_rad + 0.1)))
     assert rig.now is DriveState.HOLD
 
 
 def test_sr6_the_first_set_point_is_the_measured_position_and_the_step_takes_two_seconds() -> None:
-    wanted = target((0.6, 0.3, 0.0, 1.4))
+    wanted = target(moved(0.0, 0.0, 0.0, 0.8))
     rig = Rig()
     rig.run(0.05, wanted)
     assert rig.wish(Enable(number=1)) == ""
@@ -277,13 +281,13 @@ def test_sr6_the_first_set_point_is_the_measured_position_and_the_step_takes_two
         course.append(rig.tick(wanted).angle_rad[3])
     assert len(course) * DT_S >= 2.0 - 2 * DT_S
     half_way = course[len(course) // 2]
-    assert half_way == pytest.approx(1.0, abs=0.1)
+    assert half_way == pytest.approx(AT_REST[3] + 0.4, abs=0.1)
     assert course == sorted(course)
 
 
 def test_sr6_enable_is_refused_while_the_target_is_far_and_says_what_to_do() -> None:
     rig = Rig()
-    rig.run(0.05, target((0.6, 0.3, 0.0, 0.6 + CONFIG.engage_within_rad + 0.1)))
+    rig.run(0.05, target((*AT_REST[:3], AT_REST[3] + CONFIG.engage_within_rad + 0.1)))
     refusal = rig.wish(Enable(number=1))
     assert "too far" in refusal
     assert "elbow" in refusal
@@ -294,7 +298,7 @@ def test_sr6_enable_is_refused_while_the_target_is_far_and_says_what_to_do() -> 
 
 def test_sr6_a_target_in_another_plane_is_not_far_for_a_hanging_arm() -> None:
     rig = Rig()
-    rig.run(0.05, target((1.8, 0.25, 0.0, 0.6)))
+    rig.run(0.05, target((1.8, 0.25, *AT_REST[2:])))
     assert rig.wish(Enable(number=1)) == ""
 
 
@@ -314,7 +318,7 @@ def test_sr10_an_arm_outside_the_patients_range_forbids_enable() -> None:
 
 @pytest.mark.parametrize("then", ["stop", "silence"])
 def test_sr7_sr9_a_stop_or_a_silent_service_brings_the_arm_to_rest_at_full_deceleration(then: str) -> None:
-    wanted = target((0.6, 1.1, 0.0, 0.6))
+    wanted = target(moved(0.0, 0.8, 0.0, 0.0))
     rig = engaged(wanted, seconds=0.9)
     speed = abs(rig.command.velocity_rad_s[1])
     assert speed > 0.4
@@ -332,10 +336,24 @@ def test_sr7_sr9_a_stop_or_a_silent_service_brings_the_arm_to_rest_at_full_decel
 
 
 def test_sr5_resuming_waits_until_the_arm_has_come_to_rest() -> None:
-    rig = engaged(target((0.6, 1.1, 0.0, 0.6)), seconds=0.9)
+    rig = engaged(target(moved(0.0, 0.8, 0.0, 0.0)), seconds=0.9)
     rig.tick(target(), service_age_s=0.3)
     rig.tick(target())
     assert "coming to rest" in rig.wish(Resume(number=1))
+
+
+def test_sr7_an_arm_that_waits_does_not_sink() -> None:
+    rig = Rig()
+    rig.run(20.0, target())
+    assert rig.reading.angle_rad == pytest.approx(AT_REST, abs=0.02)
+
+
+def test_an_arm_that_is_moved_by_hand_before_it_is_enabled_is_held_where_it_was_put() -> None:
+    rig = Rig()
+    rig.run(0.1, target())
+    put = DriveReading(0.0, (0.9, 0.9, 0.2, 1.0), ZERO, ZERO)
+    rig.tick(target(), reading=put)
+    assert rig.command.angle_rad[1] == 0.9
 
 
 def test_sr5_from_off_nothing_but_opening_a_session_leads_on() -> None:

@@ -1,0 +1,263 @@
+"""The station's one loop: a tick takes wishes and datagrams, moves the exoskeleton, and tells of it last."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from math import isnan
+
+from fusion.messages import Floats, Packet, PipelineFrame
+from fusion.skeleton import Side
+from server.channels import StationChannels, encoded
+from server.config import StationConfig
+from server.messages import (
+    DriveState,
+    Enable,
+    Heartbeat,
+    LiveTick,
+    StateChanged,
+    StationEvent,
+    StationUp,
+    Timing,
+    Wish,
+    WishAnswer,
+)
+from server.station import session, view
+from server.station.demonstration import Demonstration
+from server.station.desk import Desk
+from server.station.exo import safety
+from server.station.exo.driver import Drive, DriveCommand, DriveReading
+from server.station.exo.evidence import SafetyInputs
+from server.station.exo.mapping import joint_target
+from server.station.exo.safety import SafetyState
+from server.station.perception import Heard, Perception
+from server.station.sources.udp import UdpSource
+from server.station.view import Build
+from server.station.warnings import Trouble, Warnings
+
+BUILD_SHARE = 0.005
+"""What one tick counts in the learnt build: a time constant of two seconds at 100 Hz."""
+
+
+class Loop:
+    """One tick at a time; who calls `step` owns the clock.
+
+    Args:
+        config: of the station.
+        source: where datagrams come from.
+        perception: what they mean.
+        drive: the exoskeleton, open.
+        channels: to the service.
+        demonstration: in demonstration mode, who may be heard.
+        clock: monotonic; read only to say how long things took.
+    """
+
+    def __init__(
+        self,
+        config: StationConfig,
+        source: UdpSource,
+        perception: Perception,
+        drive: Drive,
+        channels: StationChannels,
+        demonstration: Demonstration | None = None,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self._config, self._source, self._perception = config, source, perception
+        self._drive, self._channels, self._demonstration, self._clock = drive, channels, demonstration, clock
+        self._desk = Desk(config, perception, drive)
+        self._warnings = Warnings()
+        self._state = SafetyState()
+        self._build = Build()
+        self._index = 0
+        self._heartbeat_s = float("-inf")
+        self._frame = PipelineFrame(t_s=0.0, sensors=(), samples=())
+        self._trunk_at_enable: Floats | None = None
+        self._ticks_missed = 0
+        self._last_tick_s = 0.0
+        self._overruns = 0
+
+    # ---------------------------------------------------------------- for who owns the clock
+
+    def announce(self, now_s: float) -> None:
+        """Tell the service that the station listens, and where."""
+        self._tell(StationUp(t_s=now_s, ports=self._source.ports, drive=self._drive.name))
+
+    def count_overruns(self, slots: int) -> None:
+        """Ticks that could not begin in time; a counted fault (SR-9)."""
+        self._overruns += slots
+
+    def leave(self, now_s: float) -> None:
+        """Begin to end: the arm comes to rest and the recording is finished in the ticks that follow."""
+        self._change(self._desk.leave(self._state, now_s), now_s)
+
+    @property
+    def may_end(self) -> bool:
+        """Whether the arm is at rest and no recording is open."""
+        return self._state.at_rest and self._desk.recorder is None
+
+    def step(self, now_s: float) -> LiveTick:
+        """One tick. Wishes enter here at its head and results leave at its tail."""
+        began_s = self._clock()
+        self._hear_people(now_s)
+        packets = self._packets(now_s)
+        heard = self._perception.step(packets, now_s)
+        self._frame = heard.frame
+        reading = self._drive.read(now_s)
+        command = self._decide(reading, now_s)
+        self._drive.command(command, now_s)
+        given_s = self._clock()
+        tick = self._tick(heard, reading, command, given_s, now_s)
+        self._publish(tick, packets, heard)
+        self._after(heard, now_s)
+        self._last_tick_s = self._clock() - began_s
+        return tick
+
+    # ---------------------------------------------------------------- head
+
+    def _hear_people(self, now_s: float) -> None:
+        for wish in (*self._channels.stops(), *self._channels.wishes()):
+            if isinstance(wish, Heartbeat):
+                self._heartbeat_s, self._ticks_missed = now_s, wish.ticks_missed
+            else:
+                self._answer(wish, now_s)
+
+    def _answer(self, wish: Wish, now_s: float) -> None:
+        after, refusal = self._desk.answer(wish, self._state, now_s)
+        self._change(after, now_s)
+        if isinstance(wish, Enable) and not refusal:
+            self._trunk_at_enable = session.trunk_place(self._frame)
+        self._tell(
+            WishAnswer(
+                t_s=now_s, number=wish.number, accepted=not refusal, reason=refusal, state=self._state.gate.state
+            )
+        )
+
+    def _packets(self, now_s: float) -> list[Packet]:
+        packets = self._source.drain()
+        if self._demonstration is None:
+            return packets
+        if self._demonstration.remind_now(now_s):
+            self._channels.pause_demonstration(self._demonstration.is_paused)
+        return self._demonstration.heard(packets)
+
+    # ---------------------------------------------------------------- middle
+
+    def _decide(self, reading: DriveReading, now_s: float) -> DriveCommand:
+        open_session = self._desk.session
+        middle = sum((self._config.device[0].min_rad, self._config.device[0].max_rad)) / 2
+        newest_s = self._frame.newest_received_s
+        inputs = SafetyInputs(
+            reading=reading,
+            target=joint_target(self._frame.target, self._state.motions[0].angle_rad, middle),
+            evidence_age_s=float("inf") if isnan(newest_s) else now_s - newest_s,
+            service_age_s=now_s - self._heartbeat_s,
+            limits=open_session.limits if open_session else (),
+            boxes=open_session.boxes if open_session else (),
+            blockers=session.lacks(open_session, self._frame),
+        )
+        after, command = safety.step(self._state, inputs, self._config.gate, now_s)
+        self._change(after, now_s)
+        return command
+
+    def _change(self, after: SafetyState, now_s: float) -> None:
+        before, self._state = self._state.gate, after
+        if before.state is not after.gate.state:
+            self._tell(StateChanged(t_s=now_s, before=before.state, after=after.gate.state, reason=after.gate.reason))
+
+    # ---------------------------------------------------------------- tail
+
+    def _tick(
+        self, heard: Heard, reading: DriveReading, command: DriveCommand, given_s: float, now_s: float
+    ) -> LiveTick:
+        frame, gate, facts = heard.frame, self._state.gate, self._state.facts
+        self._build = self._build.learnt(frame, BUILD_SHARE)
+        open_session = self._desk.session
+        side = open_session.healthy_side if open_session else Side.LEFT
+        samples = {sample.sensor: sample for sample in frame.samples}
+        self._index += 1
+        return LiveTick(
+            index=self._index,
+            t_s=now_s,
+            t_newest_received_s=None if isnan(frame.newest_received_s) else frame.newest_received_s,
+            state=gate.state,
+            reason=gate.reason or "; ".join(command.clamped),
+            may_enable=gate.state is DriveState.READY and not facts.obstacles,
+            blockers=facts.obstacles,
+            session=open_session.name if open_session else "",
+            healthy_side=side,
+            sensors=tuple(
+                view.sensor_view(quality, samples.get(quality.sensor), self._perception.decoder.dialect_of, now_s)
+                for quality in frame.sensors
+            ),
+            body=view.body_view(frame.fused),
+            healthy=view.healthy_view(frame.healthy, frame),
+            target=view.target_view(frame.target, self._build, frame.trunk),
+            affected=view.affected_view(reading.angle_rad, side.other, self._build, frame.trunk),
+            exo=view.exo_view(reading, command, self._state),
+            limits=open_session.limits if open_session else (),
+            trunk_lean_m=session.lean_m(self._trunk_at_enable, frame),
+            timing=self._timing(heard, given_s),
+            warnings=(*frame.warnings, *self._warnings.recent(now_s)),
+        )
+
+    def _timing(self, heard: Heard, given_s: float) -> Timing:
+        counts = self._perception.decoder.counts()
+        recorder = self._desk.recorder
+        return Timing(
+            datagram_to_command_s=given_s - heard.frame.newest_received_s if heard.samples else None,
+            tick_s=self._last_tick_s,
+            overruns=self._overruns,
+            datagrams=counts.datagrams,
+            datagrams_refused=counts.refused_in_all + self._source.refused,
+            ticks_dropped=self._ticks_missed,
+            recorder_dropped=recorder.dropped if recorder else 0,
+        )
+
+    def _publish(self, tick: LiveTick, packets: list[Packet], heard: Heard) -> None:
+        message = encoded(tick)
+        self._channels.publish(message)
+        recorder = self._desk.recorder
+        if recorder is None:
+            return
+        for packet in packets:
+            recorder.packet(packet)
+        for sample in heard.samples:
+            recorder.sample(sample)
+        recorder.tick(message, tick.t_s)
+
+    def _after(self, heard: Heard, now_s: float) -> None:
+        closed = self._desk.settle(self._state, now_s)
+        if closed is not None:
+            self._trunk_at_enable = None
+            self._tell(closed)
+        floor = self._demonstration
+        if floor is not None and floor.listen(heard.samples, self._desk.session is not None, now_s):
+            self._perception.begin_anew()
+            self._channels.pause_demonstration(floor.is_paused)
+        for warned in self._warnings.step(self._troubles(), now_s):
+            self._tell(warned)
+
+    def _troubles(self) -> tuple[Trouble, ...]:
+        recorder = self._desk.recorder
+        garbage = self._perception.decoder.counts().refused_in_all
+        return (
+            Trouble("overrun", self._overruns, "The control loop was late {more} times."),
+            Trouble("garbage", garbage, "{more} messages from sensors could not be read."),
+            Trouble("oversized", self._source.oversized, "{more} datagrams were longer than a sensor's ever are."),
+            Trouble("stranger", self._source.strangers, "{more} datagrams came from senders that are not allowed."),
+            Trouble("flood", self._source.overflowed, "{more} datagrams were lost: they came faster than can be read."),
+            Trouble(
+                "perception", self._perception.errors, "The body had to be found anew after an error (see the log)."
+            ),
+            Trouble("recorder", recorder.dropped if recorder else 0, self._recorder_words()),
+        )
+
+    def _recorder_words(self) -> str:
+        trouble = self._desk.recorder.trouble if self._desk.recorder else ""
+        return trouble.replace("{", "(").replace("}", ")") or "{more} entries were not recorded: the disk is too slow."
+
+    def _tell(self, event: StationEvent) -> None:
+        message = encoded(event)
+        self._channels.tell(message)
+        if self._desk.recorder is not None:
+            self._desk.recorder.event(message, event.t_s)
