@@ -6,6 +6,7 @@ import { t } from "../strings";
 import { accessOf } from "./access";
 import { keepAwake } from "./awake";
 import { addControls } from "./controls";
+import { child } from "./dom";
 import { Picture } from "./picture";
 import type { Access } from "./screen";
 import { Sound } from "./sound";
@@ -43,7 +44,7 @@ function start(): void {
 /** The picture, or null with a plain sentence on the page where the browser has no WebGL. */
 function open(page: HTMLElement, sound: Sound): Picture | null {
   const overlay = part("overlay");
-  try {
+  if (document.createElement("canvas").getContext("webgl2")) {
     return new Picture(
       page,
       part<HTMLCanvasElement>("picture"),
@@ -52,12 +53,12 @@ function open(page: HTMLElement, sound: Sound): Picture | null {
       overlay,
       sound,
     );
-  } catch {
-    overlay.innerHTML = '<div class="panel" role="alert"><h1 class="title"></h1><p></p></div>';
-    overlay.querySelector("h1")?.append(t("play.unable.title"));
-    overlay.querySelector("p")?.append(t("play.unable.text"));
-    return null;
   }
+  const panel = child(overlay, "div", "panel");
+  panel.setAttribute("role", "alert");
+  child(panel, "h1", "title").append(t("play.unable.title"));
+  child(panel, "p", "text").append(t("play.unable.text"));
+  return null;
 }
 
 function seconds(): number {

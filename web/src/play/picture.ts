@@ -32,7 +32,7 @@ export class Picture {
   private drawn = 0;
   private last_s = 0;
 
-  /** Throws where the browser has no WebGL. */
+  /** The canvases need WebGL 2. */
   constructor(
     private readonly page: HTMLElement,
     canvas: HTMLCanvasElement,

@@ -34,7 +34,7 @@ export class Stage {
 
   /**
    * The scenery is painted once onto `backdrop`, behind the see-through `canvas`: the eyes never move and nothing acts
-   * behind it, and so a screen without a graphics card has two thirds less to compute. Throws without WebGL.
+   * behind it, and so a screen without a graphics card has two thirds less to compute.
    */
   constructor(
     private readonly canvas: HTMLCanvasElement,
