@@ -12,8 +12,8 @@ from fusion.messages import ArmLengths, Floats
 from fusion.virtual_patient.anatomy import ArmPose
 
 RANGES_RAD: Final[Floats] = np.array([[-0.25, 1.95], [0.05, 1.6], [-0.9, 1.25], [0.1, 2.2]])
-"""(4, 2) lowest and highest plane, elevation, rotation and elbow that the patient uses: inside the cautious default of a
-patient's passive range, so that the mirrored arm may follow."""
+"""(4, 2) lowest and highest plane, elevation, rotation and elbow that the patient uses: inside the cautious default of
+a patient's passive range, so that the mirrored arm may follow."""
 _SWIVELS: Final = 72
 _OUT_OF_RANGE_COST: Final = 100.0
 _RAISED_ELBOW_COST: Final = 0.5

@@ -64,6 +64,12 @@ def test_the_healthy_hand_comes_to_its_goal_after_a_reaction_time(side: Side) ->
     assert distances[-1] < 0.01
 
 
+@pytest.mark.parametrize("seed", range(5))
+def test_a_missed_goal_is_mended(seed: int) -> None:
+    frames = live(VirtualPatient(Side.RIGHT, seed), 4.0, GOAL)
+    assert_allclose(healthy_hand(frames[-1:], Side.RIGHT)[0], GOAL.hand_in_trunk, atol=5e-3)
+
+
 def test_a_reach_has_the_bell_shaped_speed_of_least_jerk() -> None:
     movement = Movement(np.zeros(4)).towards(np.array([0.0, 1.0, 0.0, 0.0]), 0.0, 1.0)
     t_s = np.linspace(0, movement.parts[0].duration_s, 501)

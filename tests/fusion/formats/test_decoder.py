@@ -132,6 +132,12 @@ def test_without_hands_an_osceleton2_frame_closes_on_a_changed_time() -> None:
     assert (sample.state > 0).sum() == 5
 
 
+def test_an_overtaken_osceleton2_hand_does_not_close_the_next_frame() -> None:
+    first, second = (Osceleton2().encode(body_at(x, t_s=x), 0) for x in (1.0, 2.0))
+    came = feed(Decoder(), first[:-2] + second[:10] + first[-2:] + second[10:])
+    assert [int((sample.state > 0).sum()) for sample in came] == [20, 20]
+
+
 def test_a_frame_closes_at_the_end_of_its_bundle() -> None:
     bundle = write_bundle([write_bundle(KinectV2Osc().encode(body_at(1.0), 0)[:20])])
     (sample,) = feed(Decoder(), [bundle])

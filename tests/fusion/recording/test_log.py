@@ -118,6 +118,21 @@ def test_a_log_cut_off_anywhere_is_read_up_to_its_last_whole_chunk(tmp_path: Pat
         assert len(read_recording(cut).skeleton_streams[0].samples) == count
 
 
+def test_most_is_in_the_file_even_before_a_flush(tmp_path: Path) -> None:
+    path = tmp_path / "log.mcap"
+    with LogWriter(path, LogAbout("n")) as log:
+        for number in range(300):
+            log.sample(sample(number))
+        assert sum(1 for _ in LogReader(path).samples()) > 150
+
+
+def test_a_straggler_that_repeats_its_frames_time_does_not_spoil_a_folder(tmp_path: Path) -> None:
+    twice = (sample(0), sample(0), sample(1))
+    stream = SkeletonStream("10.0.0.5", True, "sensor", twice)
+    write_recording(Recording("n", "", None, (stream,), None, (), tmp_path), tmp_path / "folder")
+    assert len(read_recording(tmp_path / "folder").skeleton_streams[0].samples) == 2
+
+
 def test_a_spoilt_log_is_read_up_to_the_spoilt_chunk(tmp_path: Path) -> None:
     path = tmp_path / "log.mcap"
     with LogWriter(path, LogAbout("n")) as log:
