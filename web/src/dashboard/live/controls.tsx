@@ -6,7 +6,14 @@ import { type Feed, useFromFeed } from "./feed";
 
 const ACTIONS: readonly Action[] = ["start", "hold", "resume", "reset", "stop"];
 
-export function Controls({ feed, onWish }: { feed: Feed; onWish: (action: Action) => void }) {
+interface Props {
+  feed: Feed;
+  /** What has been pressed and is not answered yet. */
+  pending: Action | null;
+  onWish: (action: Action) => void;
+}
+
+export function Controls({ feed, pending, onWish }: Props) {
   const possible = useFromFeed(feed, 15, possibleOf).split(" ");
   return (
     <div class="controls">
@@ -16,10 +23,12 @@ export function Controls({ feed, onWish }: { feed: Feed; onWish: (action: Action
           type="button"
           class={classOf(action)}
           disabled={!possible.includes(action)}
+          aria-busy={pending === action}
           onClick={() => onWish(action)}
           data-testid={action}
         >
           {t(`control.${action}`)}
+          {pending === action && action !== "stop" && <span class="key-hint">…</span>}
           {action === "stop" && <span class="key-hint">{t("control.stop.keys")}</span>}
         </button>
       ))}

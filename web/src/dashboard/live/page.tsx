@@ -47,12 +47,16 @@ function Live({ session }: { session: Session }) {
   const feed = useFeed();
   const wishes = useDoing();
   const [ending, setEnding] = useState(false);
-  const wish = (action: Action) => wishes.run(() => send(session.id, action));
+  const [pressed, setPressed] = useState<Action | null>(null);
+  const wish = (action: Action) => {
+    setPressed(action);
+    wishes.run(() => send(session.id, action));
+  };
   const alsoListenIn = useStopKey(() => wish("stop"));
   return (
     <main class="live" data-testid="live">
       <StateBanner feed={feed}>
-        <Controls feed={feed} onWish={wish} />
+        <Controls feed={feed} pending={wishes.busy ? pressed : null} onWish={wish} />
       </StateBanner>
       <div class="live-main">
         <View3d onLoad={alsoListenIn} />
