@@ -195,26 +195,25 @@ class Pipeline:
         watch.note(sample, len(refused) if isinstance(refused, tuple) else 0, what is not Mending.NONE)
 
     def _learn(self, t_s: float) -> None:
-        """Learn alignments on the way, a few times a second, one look at each sensor."""
+        """Learn alignments on the way, a few times a second."""
         if self._settings.alignments is not None or t_s < self._next_learning_s:
             return
         self._next_learning_s = t_s + EVERY_S
         for name, watch in self._sensors.items():
             watch.check(self._patient.followed(name))
         self._elect()
-        track = (
-            self._sensors[self._reference].track(self._patient.followed(self._reference)) if self._reference else None
-        )
+        reference = self._sensors.get(self._reference or "")
+        track = reference.track(self._patient.followed(reference.sensor)) if reference else None
+        if track is None:
+            return
         for name, watch in self._sensors.items():
-            if track is None or name == self._reference or watch.fault is not None:
-                continue
-            body = watch.learn(track, self._patient.followed(name))
-            if body is not None:
-                self._patient.prefer(name, body)
+            if watch is not reference and watch.fault is None:
+                self._patient.prefer(name, watch.learn(track, self._patient.followed(name)))
 
     def _elect(self) -> None:
         """The reference is the first sensor that has shown a body long enough and can be right."""
-        if self._reference in self._sensors and self._sensors[self._reference].fault is not None:
+        reference = self._sensors.get(self._reference or "")
+        if reference is not None and reference.fault is not None:
             self._reference = None
             self._body.restart()
             for watch in self._sensors.values():

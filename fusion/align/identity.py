@@ -96,9 +96,9 @@ class PatientFinder:
             view.choose(None)
         self._views.setdefault(sensor, _View(-np.inf)).choose(body)
 
-    def prefer(self, sensor: str, body: str) -> None:
-        """Follow this body in one sensor, because it moves as the patient does in the reference."""
-        if sensor in self._views:
+    def prefer(self, sensor: str, body: str | None) -> None:
+        """Follow this body in one sensor, as it moves like the patient in the reference; None changes nothing."""
+        if body is not None and sensor in self._views:
             self._views[sensor].choose(body)
 
     def followed(self, sensor: str) -> str | None:

@@ -41,8 +41,9 @@ class SensorWatch:
         self._given = given
         self._frames: dict[str, Frames] = {}
         self._times: deque[float] = deque(maxlen=120)
-        self._learners: dict[str, AlignmentLearner] = {}
-        self._chosen: str | None = None
+        self._learner: AlignmentLearner | None = None
+        self._candidates: dict[str, AlignmentLearner] = {}
+        """One per body, as long as it is open which of them the reference sees."""
         self._mended: deque[bool] = deque(maxlen=RECENT_MENDS)
         self._last: SkeletonSample | None = None
         self._refused_joints = 0
@@ -99,44 +100,53 @@ class SensorWatch:
         """Where the sensor stands; None until that is well determined."""
         if self._given is not None or self.fault is not None:
             return self._given
-        learner = self._learners.get(self._chosen or "")
-        return learner.alignment if learner else None
+        return self._learner.alignment if self._learner else None
 
     def check(self, body: str | None) -> None:
-        """Look whether this sender can be right at all."""
+        """Look whether this sender can be right at all; handedness against the reference is looked at in `learn`."""
         track = self.track(body)
         if track is not None:
             self.fault = unit_fault(track.positions[-FEWEST_FRAMES:], track.state[-FEWEST_FRAMES:]) or feet_fault(track)
 
     def learn(self, reference: BodyTrack, followed: str | None) -> str | None:
-        """Learn from the reference's last seconds; the body that is the reference's, where that was found."""
-        bodies = [followed] if self.alignment is not None and followed else list(self._frames)
-        for body in bodies:
-            track = self.track(body)
-            if track is not None:
-                self._learners.setdefault(body, AlignmentLearner()).learn(reference, track)
-        self._chosen = self._best(followed)
-        faults = [learner.fault for learner in self._learners.values() if learner.fault]
-        if self.alignment is None and faults:
-            self.fault = faults[0]
-        return self._chosen
+        """Learn from the reference's last seconds.
+
+        Args:
+            reference: the patient's track in the reference sensor.
+            followed: the body followed in this sensor; another may prove to be the patient while nothing is aligned.
+
+        Returns:
+            The body that was found to be the patient just now.
+        """
+        if self._learner is None:
+            return self._find(reference)
+        track = self.track(followed)
+        if track is not None:
+            self._learner.learn(reference, track)
+            self.fault = self._learner.fault
+        return None
 
     def forget(self) -> None:
         """Start learning anew, as when the reference changes."""
-        self._learners.clear()
-        self._chosen = None
+        self._learner = None
+        self._candidates.clear()
 
-    def _best(self, followed: str | None) -> str | None:
-        """The body whose alignment is good, and clearly better than any other body's."""
-        able = {b: a.residual_m for b, learner in self._learners.items() if (a := learner.alignment) is not None}
+    def _find(self, reference: BodyTrack) -> str | None:
+        """Hold every body in view against the reference's; the one that agrees clearly best is the same person."""
+        for body in self._frames:
+            track = self.track(body)
+            if track is not None:
+                self._candidates.setdefault(body, AlignmentLearner()).learn(reference, track)
+        able = {b: a.residual_m for b, learner in self._candidates.items() if (a := learner.alignment) is not None}
         if not able:
-            return self._chosen
-        best = min(able, key=lambda body: able[body])
-        if self._chosen in able or len(able) == 1:
-            kept = self._chosen if self._chosen in able else best
-            return followed if followed in able and self._chosen in able else kept
-        second = min(residual for body, residual in able.items() if body != best)
-        return best if second > OTHERS_CLEARLY_WORSE * able[best] else None
+            self.fault = next((learner.fault for learner in self._candidates.values() if learner.fault), None)
+            return None
+        best, *others = sorted(able, key=lambda body: able[body])
+        if others and able[others[0]] < OTHERS_CLEARLY_WORSE * able[best]:
+            return None
+        self._learner = self._candidates[best]
+        self._candidates.clear()
+        return best
 
     # --- what is told
 
@@ -177,7 +187,7 @@ class SensorWatch:
             told.append(f"{self.sensor}: {self.fault}")
         if self._times and now_s - self._times[-1] > SILENT_AFTER_S:
             told.append(f"{self.sensor}: silent. Check its cable, its program and that the patient is in view")
-        if any(learner.moved for learner in self._learners.values()):
+        if self._learner is not None and self._learner.moved:
             told.append(f"{self.sensor}: it was moved; its place is being learnt anew. Let the patient move a little")
         if len(self._mended) == RECENT_MENDS and np.mean(self._mended) > OFTEN:
             told.append(f"{self.sensor}: left and right look exchanged. Let the patient turn towards this sensor")
