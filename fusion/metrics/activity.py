@@ -8,9 +8,8 @@ import numpy as np
 
 from fusion.messages import Floats
 from fusion.metrics.metric import Metric
-from fusion.metrics.reaches import RESTING_M_S
+from fusion.metrics.reaches import session_movements
 from fusion.metrics.record import SessionRecord
-from fusion.metrics.stretches import RATE_HZ, low_passed, stretches
 
 LONGEST_TICK_S: Final = 0.5
 """A longer hole between ticks is time about which nothing is known, and counts for no state."""
@@ -33,15 +32,11 @@ def _spans_s(t_s: Floats) -> Floats:
 
 
 def _active(record: SessionRecord) -> list[Metric]:
-    """Minutes in which the arm was driven and the healthy hand faster than the resting threshold."""
-    pieces = stretches(record.t_s, record.engaged & record.healthy_valid, record.hand_in_trunk)
-    if not pieces:
+    """Minutes within movements."""
+    made = session_movements(record)
+    if not made:
         return []
-    moving = 0
-    for piece in pieces:
-        velocity = np.gradient(low_passed(piece).values, 1.0 / RATE_HZ, axis=0)
-        moving += int((np.linalg.norm(velocity, axis=1) > RESTING_M_S).sum())
-    return [Metric("active_minutes", moving / RATE_HZ / 60.0, "min", side=record.healthy_side)]
+    return [Metric("active_minutes", sum(one.duration_s for one in made) / 60.0, "min", side=record.healthy_side)]
 
 
 def _targets(record: SessionRecord) -> list[Metric]:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Final
 
 import numpy as np
+from scipy.signal import find_peaks
 
 from fusion.messages import Floats
 from fusion.metrics.metric import SENSOR_NOISE, Metric
@@ -14,13 +16,16 @@ from fusion.metrics.record import SessionRecord
 from fusion.metrics.smoothness import sparc
 from fusion.metrics.stretches import RATE_HZ, Stretch, low_passed, stretches
 
-MOVING_M_S: Final = 0.10
-"""A movement exceeds this at least once ..."""
+FASTEST_M_S: Final = 0.15
+"""A movement's peak speed reaches this."""
+RISE: Final = 0.5
+"""A peak stands out by this share of its height from the valleys beside it; lesser ones belong to the same movement."""
+ENDS: Final = 0.15
+"""A movement lasts while the speed is above this share of its peak, and above the resting speed."""
 RESTING_M_S: Final = 0.05
-"""... and lasts for as long as the speed stays above this (hysteresis, so that noise cuts no movement in two)."""
 SHORTEST_S: Final = 0.3
 SHORTEST_M: Final = 0.08
-"""Path of the shortest movement that counts: the sensors' noise makes shorter ones."""
+"""A movement carries the hand at least this far from where it was: noise jitters, but goes nowhere."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,19 +44,24 @@ class Movement:
 def movements(stretch: Stretch) -> list[Movement]:
     """The movements in a stretch of hand positions (N, 3), low-passed first.
 
-    Onset and end by a speed threshold, as usual in reaching studies (Schwarz et al., Stroke 50:718, 2019, review);
-    two thresholds instead of one.
+    A movement is a bell in the speed: a peak that stands out, from where the speed rises above a share of the peak to
+    where it falls below it, as usual in reaching studies (Schwarz et al., Stroke 50:718, 2019, review).
     """
     smooth = low_passed(stretch)
     speed = np.linalg.norm(np.gradient(smooth.values, 1.0 / RATE_HZ, axis=0), axis=1)
-    found = (_movement(smooth, speed, first, last) for first, last in _above(speed))
+    found = (_movement(smooth, speed, first, last) for first, last in _bells(speed))
     return [one for one in found if one is not None]
+
+
+def session_movements(record: SessionRecord) -> list[Movement]:
+    """The healthy hand's movements while the arm was driven."""
+    pieces = stretches(record.t_s, record.engaged & record.healthy_valid, record.hand_in_trunk)
+    return [one for piece in pieces for one in movements(piece)]
 
 
 def reach_metrics(record: SessionRecord) -> list[Metric]:
     """Number of movements, and medians over them: time, peak and mean speed, path ratio, SPARC."""
-    pieces = stretches(record.t_s, record.engaged & record.healthy_valid, record.hand_in_trunk)
-    made = [one for piece in pieces for one in movements(piece)]
+    made = session_movements(record)
     if not made:
         return []
     side = record.healthy_side
@@ -69,13 +79,22 @@ def reach_metrics(record: SessionRecord) -> list[Metric]:
     ]
 
 
-def _above(speed: Floats) -> list[tuple[int, int]]:
-    """First and last index of every run above the lower threshold that also passes the higher one and has both ends."""
-    moving = np.concatenate([[False], speed > RESTING_M_S, [False]])
-    edges = np.flatnonzero(np.diff(moving.astype(int)))
-    runs = zip(edges[::2], edges[1::2] - 1, strict=True)
-    whole = [(int(a), int(b)) for a, b in runs if a > 0 and b < len(speed) - 1]
-    return [(a, b) for a, b in whole if speed[a : b + 1].max() > MOVING_M_S]
+def _bells(speed: Floats) -> list[tuple[int, int]]:
+    """First and last index of every bell in a speed profile; those cut off by the profile's ends are left out."""
+    peaks, found = find_peaks(speed, height=FASTEST_M_S, prominence=0.0)
+    peaks = peaks[found["prominences"] >= RISE * found["peak_heights"]]
+    valleys = [int(a + np.argmin(speed[a:b])) for a, b in pairwise(peaks)]
+    spans = zip([0, *valleys], peaks, [*valleys, len(speed) - 1], strict=True)
+    bells = [_ends(speed, int(peak), low, high) for low, peak, high in spans]
+    return [(first, last) for first, last in bells if first > 0 and last < len(speed) - 1]
+
+
+def _ends(speed: Floats, peak: int, low: int, high: int) -> tuple[int, int]:
+    """Where the bell around `peak` begins and ends, no further than the valleys `low` and `high`."""
+    slow = speed < max(RESTING_M_S, ENDS * float(speed[peak]))
+    before, after = np.flatnonzero(slow[low:peak]), np.flatnonzero(slow[peak : high + 1])
+    first = low + int(before[-1]) if len(before) else low
+    return first, peak + int(after[0]) if len(after) else high
 
 
 def _movement(smooth: Stretch, speed: Floats, first: int, last: int) -> Movement | None:
@@ -83,7 +102,7 @@ def _movement(smooth: Stretch, speed: Floats, first: int, last: int) -> Movement
     duration_s = (last - first) / RATE_HZ
     path_m = float(np.linalg.norm(np.diff(path, axis=0), axis=1).sum())
     straight_m = float(np.linalg.norm(path[-1] - path[0]))
-    if duration_s < SHORTEST_S or path_m < SHORTEST_M or straight_m <= 0.0:
+    if duration_s < SHORTEST_S or straight_m < SHORTEST_M:
         return None
     return Movement(
         start_s=float(smooth.t_s[first]),
