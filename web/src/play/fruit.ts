@@ -1,5 +1,16 @@
 // Three fruits to reach for, turned on a lathe; each has a shape of its own, so that colour is never the only sign.
-import { CapsuleGeometry, Color, Group, LatheGeometry, Mesh, MeshPhongMaterial, SphereGeometry, Vector2 } from "three";
+import {
+  CapsuleGeometry,
+  Color,
+  GreaterDepth,
+  Group,
+  LatheGeometry,
+  Mesh,
+  MeshBasicMaterial,
+  MeshPhongMaterial,
+  SphereGeometry,
+  Vector2,
+} from "three";
 
 interface Kind {
   readonly color: string;
@@ -60,21 +71,30 @@ export function fruit(id: number): Group {
   const kind = KINDS[Math.abs(id) % KINDS.length] ?? ORANGE;
   const group = new Group();
   const top = kind.outline.at(-1)?.[1] ?? 1;
-  group.add(flesh(kind), stalk(top), leaf(top));
+  group.add(...flesh(kind), stalk(top), leaf(top));
   return group;
 }
 
-function flesh({ color, outline }: Kind): Mesh {
+function flesh({ color, outline }: Kind): Mesh[] {
   const skin = new Color(color);
-  const points = outline.map(([radius, height]) => new Vector2(radius, height));
+  const shape = new LatheGeometry(
+    outline.map(([radius, height]) => new Vector2(radius, height)),
+    24,
+  );
   const material = new MeshPhongMaterial({
     color: skin,
     emissive: skin.clone().multiplyScalar(0.28),
     specular: new Color("#665544"),
     shininess: 40,
   });
-  const mesh = new Mesh(new LatheGeometry(points, 24), material);
-  return mesh;
+  return [new Mesh(shape, material), glimpse(shape, skin)];
+}
+
+/** What shows through where the arm is before the fruit, so that a fruit near the elbow is not lost. */
+function glimpse(shape: LatheGeometry, color: Color): Mesh {
+  const material = new MeshBasicMaterial({ color, transparent: true, opacity: 0.4, depthWrite: false });
+  material.depthFunc = GreaterDepth;
+  return new Mesh(shape, material);
 }
 
 function stalk(top: number): Mesh {

@@ -15,10 +15,10 @@ import { SUN_DIRECTION } from "./table-shadow";
  * A little above and behind the real eyes and on the acting arm's side, so that the whole forearm, what it reaches for
  * and the table beneath are in view. Trunk frame, for a right arm; mirrored for a left one.
  */
-const EYES_IN_TRUNK = new Vector3(0.07, 0.36, 0.13);
+const EYES_IN_TRUNK = new Vector3(0.07, 0.38, 0.16);
 /** The lower edge of every picture, so that a tall screen shows more sky and not the patient's lap. */
-const LOWEST_SIGHT_RAD = (66.5 * Math.PI) / 180;
-const HEIGHT_RAD = (70 * Math.PI) / 180;
+const LOWEST_SIGHT_RAD = (67.5 * Math.PI) / 180;
+const HEIGHT_RAD = (71 * Math.PI) / 180;
 /** On narrow screens the picture keeps at least this width. */
 const LEAST_WIDTH_RAD = (74 * Math.PI) / 180;
 const FINEST_PIXELS = 1.5;
@@ -28,7 +28,7 @@ const COARSER = 0.75;
 export class Stage {
   /** What acts: drawn every frame. */
   readonly scene = new Scene();
-  readonly camera = new PerspectiveCamera(70, 1, 0.05, 120);
+  readonly camera = new PerspectiveCamera(71, 1, 0.05, 120);
   private readonly renderer: WebGLRenderer;
   private pixelRatio = Math.min(devicePixelRatio, FINEST_PIXELS);
 
