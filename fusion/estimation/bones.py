@@ -19,6 +19,8 @@ FORGET_FRAMES: Final = 300
 """Afterwards a length follows slowly, over ten seconds."""
 STEP_MAX_M: Final = 0.02
 """No single frame moves a length further, so that a few wild ones do not count."""
+SPREAD_MAX_M: Final = 0.1
+"""No single frame counts for more in the usual deviation."""
 DEVIATIONS: Final = 5.0
 LEAST_MISFIT_M: Final = 0.08
 """A bone is wrong when it is off by this much and by five of its usual deviations."""
@@ -61,10 +63,11 @@ def learn(bones: Bones, measured: Measurement) -> Bones:
     misfit = _lengths(measured) - bones.length_m
     first = tracked & (bones.frames == 0)
     bounded = np.clip(misfit, -STEP_MAX_M, STEP_MAX_M)
+    spread = np.minimum(np.abs(misfit), SPREAD_MAX_M)
     share = tracked / np.minimum(bones.frames + 1, FORGET_FRAMES)
     return Bones(
         bones.length_m + np.where(first, misfit, share * bounded),
-        bones.deviation_m + np.where(first, 0.0, share * (np.abs(bounded) - bones.deviation_m)),
+        bones.deviation_m + np.where(first, 0.0, share * (spread - bones.deviation_m)),
         bones.frames + tracked,
     )
 

@@ -64,13 +64,13 @@ def ways_of(recording: Recording, methods: Sequence[str]) -> tuple[Way, ...]:
 
 
 def evaluate_recording(
-    recording: Recording, methods: Sequence[str], progress: Progress = lambda share: None
+    recording: Recording, ways: Sequence[Way], progress: Progress = lambda share: None
 ) -> Evaluation:
-    """Fuse in every way and score against the truth.
+    """Fuse in every one of the ways and score against the truth.
 
     Args:
         recording: with truth for its joints.
-        methods: names in `fusion.estimation.METHODS`.
+        ways: see `ways_of`.
         progress: told the share done, 0 to 1.
 
     Raises:
@@ -78,7 +78,6 @@ def evaluate_recording(
         InputError: a method is not known.
     """
     truth = _truth(recording)
-    ways = ways_of(recording, methods)
     runs = []
     for k, way in enumerate(ways):
         fused = fuse_recording(recording, way.method, causal=way.causal, only_sensor=way.only_sensor)

@@ -18,7 +18,7 @@ from rich.table import Table
 from fusion.errors import InputError, MachineError
 from fusion.estimation import METHODS
 from fusion.evaluation.markdown import HEADINGS, cells, page, title
-from fusion.evaluation.runs import Evaluation, Way, evaluate_recording, pooled
+from fusion.evaluation.runs import Evaluation, Way, evaluate_recording, pooled, ways_of
 from fusion.evaluation.scores import Score
 from fusion.recording.reader import read_recording
 
@@ -67,7 +67,7 @@ def _evaluated(paths: Sequence[Path], methods: Sequence[str]) -> list[Evaluation
         for path in paths:
             recording = read_recording(path)
             advance = _advance(progress, progress.add_task(recording.name, total=1.0))
-            evaluations.append(evaluate_recording(recording, methods, advance))
+            evaluations.append(evaluate_recording(recording, ways_of(recording, methods), advance))
     return evaluations
 
 

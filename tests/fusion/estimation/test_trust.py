@@ -67,3 +67,12 @@ def test_a_joint_that_was_not_tracked_at_all_is_believed_when_it_is_tracked_agai
 def test_the_scene_keeps_its_bones() -> None:
     lengths = [np.linalg.norm(body_at(t)[WRIST] - body_at(t)[ELBOW]) for t in (0.0, 1.0, 2.5)]
     np.testing.assert_allclose(lengths, 0.25)
+
+
+def test_a_sensor_whose_bones_always_shake_is_not_called_wrong_for_it() -> None:
+    """Errors of 50 mm make bones shake by 70; a limit learnt from quieter sensors refused half of what they saw."""
+    rng = np.random.default_rng(8)
+    samples = [sample_at(k * FRAME_S, "front", 0.09, rng) for k in range(300)]
+    known = learnt(samples[:150])
+    wrong = [bones.wandering(known.bones, read(sample))[WRIST] for sample in samples[150:]]
+    assert np.mean(wrong) < 0.02
