@@ -161,6 +161,8 @@ export const en = {
   "live.none": "No session is open",
   "live.none.what": "Choose a patient and open a session there.",
   "live.view3d": "3-D view of sensors, body and exoskeleton",
+  "live.view3d.hide": "Hide 3-D view",
+  "live.view3d.show": "Show 3-D view",
   "live.play": "Patient's screen ↗",
   "live.score": "points · {hits} hits",
   "control.start": "Start",
@@ -204,7 +206,7 @@ export const en = {
     "Start the senders of your depth cameras and have them send OSC over UDP to {host} (or this computer's address in your network), at one of these ports:",
   "exo.joint": "Joint",
   "exo.measured": "Measured",
-  "exo.commanded": "Commanded",
+  "exo.commanded": "Command",
   "exo.limits": "Within its limits",
 
   // What a session has shown.

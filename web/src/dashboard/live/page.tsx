@@ -1,5 +1,5 @@
 // The live session on one screen: state and controls, 3-D view, curves, sensors, exoskeleton, game.
-import { useRef, useState } from "preact/hooks";
+import { useState } from "preact/hooks";
 import { currentSession } from "../../api/client";
 import type { Action, Session } from "../../api/types";
 import { t } from "../../strings";
@@ -17,8 +17,7 @@ import "./live.css";
 import { Sensors } from "./sensors";
 import { StateBanner } from "./state-banner";
 import { useStopKey } from "./stop-key";
-
-const VIEW_PAGE = "/view3d/";
+import { useView3d, View3d, View3dSwitch } from "./view3d";
 
 export function LivePage() {
   const current = useAsked(currentSession, "current");
@@ -47,6 +46,7 @@ function Live({ session }: { session: Session }) {
   const feed = useFeed();
   const wishes = useDoing();
   const [ending, setEnding] = useState(false);
+  const view3d = useView3d();
   const [pressed, setPressed] = useState<Action | null>(null);
   const wish = (action: Action) => {
     setPressed(action);
@@ -58,12 +58,13 @@ function Live({ session }: { session: Session }) {
       <StateBanner feed={feed}>
         <Controls feed={feed} pending={wishes.busy ? pressed : null} onWish={wish} />
       </StateBanner>
-      <div class="live-main">
-        <View3d onLoad={alsoListenIn} />
+      <div class={view3d.isShown ? "live-main" : "live-main live-main-flat"}>
+        {view3d.isShown && <View3d onLoad={alsoListenIn} />}
         <div class="live-curves">
           <LiveCurve feed={feed} first="elevation" />
           <LiveCurve feed={feed} first="elbow" />
         </div>
+        <View3dSwitch {...view3d} />
         {ending && <EndQuestion session={session.id} onCancel={() => setEnding(false)} />}
       </div>
       <div class="live-foot">
@@ -77,20 +78,5 @@ function Live({ session }: { session: Session }) {
         </div>
       )}
     </main>
-  );
-}
-
-function View3d({ onLoad }: { onLoad: (inside: Window | null) => void }) {
-  const frame = useRef<HTMLIFrameElement>(null);
-  return (
-    <div class="view3d">
-      <iframe
-        title={t("live.view3d")}
-        src={VIEW_PAGE}
-        ref={frame}
-        onLoad={() => onLoad(frame.current?.contentWindow ?? null)}
-        data-testid="view3d"
-      />
-    </div>
   );
 }
