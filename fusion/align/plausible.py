@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fusion.align.space import fit_robustly
+from fusion.align.space import Moments, mounting
 from fusion.align.track import BodyTrack, Pairs
 from fusion.messages import Floats, States
 from fusion.skeleton import INDEX, SIDES_SWAPPED, TrackingState
@@ -77,15 +77,22 @@ def handedness_fault(pairs: Pairs) -> Fault | None:
     """A sensor that becomes consistent with the reference only as a mirror image, or with its sides exchanged."""
     if pairs.frames == 0:
         return None
-    straight = fit_robustly(pairs, allow_swaps=False).residual_m
+    straight = _coarse_residual(pairs)
     others = {
-        EXCHANGED: fit_robustly(_exchanged(pairs), allow_swaps=False).residual_m,
-        MIRRORED: fit_robustly(_mirrored(pairs), allow_swaps=False).residual_m,
-        MIRROR_IMAGE: fit_robustly(_mirrored(_exchanged(pairs)), allow_swaps=False).residual_m,
+        EXCHANGED: _coarse_residual(_exchanged(pairs)),
+        MIRRORED: _coarse_residual(_mirrored(pairs)),
+        MIRROR_IMAGE: _coarse_residual(_mirrored(_exchanged(pairs))),
     }
     best = min(others, key=lambda fault: others[fault])
     better = others[best] < CLEARLY_BETTER * straight and straight - others[best] > LEAST_GAIN_M
     return best if better else None
+
+
+def _coarse_residual(pairs: Pairs) -> float:
+    """Median distance under the plain best fit; enough to tell hands apart, and cheap enough for a tick."""
+    moments = Moments.of(pairs.reference.reshape(-1, 3), pairs.sensor.reshape(-1, 3), pairs.weight.ravel())
+    distance = np.linalg.norm(mounting(moments).errors(pairs), axis=2)[pairs.weight > 0]
+    return float(np.median(distance))
 
 
 def _exchanged(pairs: Pairs) -> Pairs:

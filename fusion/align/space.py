@@ -24,6 +24,8 @@ TUKEY_WIDTHS = 25.0
 """In median distances: what is further off than this is not that joint."""
 NARROWEST_M = 0.002
 """A median is never taken for smaller than this, so that clean data are not cut to nothing."""
+MOST_SWAPPED = 0.5
+"""A sensor with more exchanged frames than this has its sides exchanged altogether (`plausible` says so)."""
 MOST_ROUNDS = 40
 SETTLED = 1e-5
 """Radians and metres: no sensor is mounted more exactly."""
@@ -120,11 +122,13 @@ def _deviations(moments: Moments, rotation: Floats) -> tuple[float, float]:
 
     A small turn ε moves a point by ε × u, so its information is Σ w (|u|² 1 - u u') / σ² with u = R (s - s̄).
     """
+    if moments.weight <= 0.0:
+        return float("inf"), float("inf")
     square = moments.square + np.trace(moments.scatter) - 2 * np.trace(rotation.T @ moments.cross)
-    variance = max(float(square), 0.0) / (3 * max(moments.weight, 1e-9)) * POINTS_PER_INDEPENDENT
+    variance = max(float(square), 0.0) / (3 * moments.weight) * POINTS_PER_INDEPENDENT
     lever = np.linalg.eigvalsh(np.trace(moments.scatter) * np.eye(3) - moments.scatter)
     rotation_variance = float((variance / np.maximum(lever, 1e-9)).sum())
-    return float(np.sqrt(rotation_variance)), float(np.sqrt(3 * variance / max(moments.weight, 1e-9)))
+    return float(np.sqrt(rotation_variance)), float(np.sqrt(3 * variance / moments.weight))
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,7 +148,7 @@ class RobustFit:
 
 
 def fit_robustly(
-    pairs: Pairs, settled: Moments | None = None, start: Mounting | None = None, allow_swaps: bool = True
+    pairs: Pairs, settled: Moments | None = None, start: Mounting | None = None, rounds: int = MOST_ROUNDS
 ) -> RobustFit:
     """Fit a mounting to pairs and to sums settled before.
 
@@ -155,15 +159,15 @@ def fit_robustly(
         pairs: at least four weighted joints in all.
         settled: sums of earlier frames, already weighted.
         start: where to start; the plain least-squares fit when None.
-        allow_swaps: whether to look for frames with exchanged sides and leave them out.
+        rounds: how often at most to weigh anew.
     """
     base = settled or Moments.nothing()
     first = start or mounting(base.joined(_moments(pairs, pairs.weight)))
-    fit = _anneal(pairs, pairs.weight, base, first)
+    fit = _anneal(pairs, pairs.weight, base, first, rounds)
     swapped = swapped_frames(pairs, fit.mounting)
-    if not (allow_swaps and swapped.any()):
+    if not swapped.any() or swapped.mean() > MOST_SWAPPED:
         return fit
-    again = _anneal(pairs, np.where(swapped[:, None], 0.0, pairs.weight), base, fit.mounting)
+    again = _anneal(pairs, np.where(swapped[:, None], 0.0, pairs.weight), base, fit.mounting, rounds)
     return RobustFit(again.mounting, again.weight, again.residual_m, again.cutoff_m, swapped)
 
 
@@ -182,13 +186,13 @@ def _moments(pairs: Pairs, weight: Floats) -> Moments:
     return Moments.of(pairs.reference.reshape(-1, 3), pairs.sensor.reshape(-1, 3), weight.ravel())
 
 
-def _anneal(pairs: Pairs, weight: Floats, base: Moments, start: Mounting) -> RobustFit:
+def _anneal(pairs: Pairs, weight: Floats, base: Moments, start: Mounting, rounds: int) -> RobustFit:
     """Iterate weights and the closed form, halving the cut-off down to its final width."""
     used = weight.ravel() > 0
     r, s, given = pairs.reference.reshape(-1, 3)[used], pairs.sensor.reshape(-1, 3)[used], weight.ravel()[used]
     rotation, translation, cutoff, sums = start.rotation, start.translation_m, np.inf, base
     kept, median = given, 0.0
-    for _ in range(MOST_ROUNDS):
+    for _ in range(rounds):
         error = r - (s @ rotation.T + translation)
         distance = np.sqrt(np.einsum("ni,ni->n", error, error))
         median = float(np.median(distance)) if distance.size else 0.0

@@ -10,6 +10,7 @@ from fusion.align.learner import EVERY_S, WINDOW_S, AlignmentLearner
 from fusion.align.plausible import MIRROR
 from fusion.align.track import BodyTrack
 from fusion.geometry import rotation_angle_rad
+from fusion.skeleton import SIDES_SWAPPED
 
 TURN, PLACE = Rotation.from_euler("y", 1.5), np.array([-2.2, 0.1, 2.2])
 ELSEWHERE = Rotation.from_euler("y", 1.0)
@@ -64,11 +65,12 @@ def test_a_sensor_that_was_moved_is_noticed_and_learnt_anew(bodies, times):
     assert angle_deg(learner, ELSEWHERE) < 1.5
 
 
-def test_a_mirrored_sensor_is_never_trusted(bodies, times):
+@pytest.mark.parametrize("spoil", [lambda p: p * MIRROR, lambda p: p[:, SIDES_SWAPPED]])
+def test_a_sensor_that_is_mirrored_or_has_its_sides_exchanged_is_never_trusted(bodies, times, spoil):
     reference = bodies.track(times, noise_m=0.02, seed=1)
     right = bodies.track(times, TURN, PLACE, noise_m=0.02, seed=2)
     learner = AlignmentLearner()
-    live(learner, reference, BodyTrack(times, right.positions * MIRROR, right.state), 10.0)
+    live(learner, reference, BodyTrack(times, spoil(right.positions), right.state), 10.0)
     assert learner.alignment is None
     assert learner.fault is not None
 

@@ -124,6 +124,10 @@ def test_fading_halves_the_weight_and_keeps_the_answer(seen_by):
     assert mounting(faded).rotation_std_rad > mounting(sums).rotation_std_rad
 
 
+def test_no_point_at_all_determines_nothing():
+    assert mounting(Moments.nothing()).rotation_std_rad == np.inf
+
+
 def test_the_stated_deviation_covers_the_error(seen_by):
     rotation, translation = Rotation.from_euler("y", 1.5), np.array([2.0, 0.0, 2.0])
     fit = fit_robustly(seen_by(rotation, translation, noise_m=0.03))
