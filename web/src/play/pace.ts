@@ -1,7 +1,7 @@
 // Frames per second, and whether the picture must become coarser so that the arm keeps moving smoothly.
 
-/** Below this rate for `SLOW_WINDOWS` windows in a row the picture is to become coarser. */
-export const SLOW_FPS = 40;
+/** Slower than this share of the rate hoped for, for `SLOW_WINDOWS` windows in a row: the picture is to become coarser. */
+const SLOW_SHARE = 0.7;
 const WINDOW_S = 1;
 const SLOW_WINDOWS = 2;
 /** A pause this long is a hidden window or a sleeping tablet, not a slow screen. */
@@ -14,6 +14,8 @@ export class Pace {
   private window_s = 0;
   private slow = 0;
   private last_s: number | null = null;
+
+  constructor(private readonly hoped_fps: number) {}
 
   /** Counts a frame drawn at `now_s`; true when it has been too slow for too long. */
   frame(now_s: number): boolean {
@@ -34,7 +36,7 @@ export class Pace {
   private closeWindow(): boolean {
     this.fps = this.frames / this.window_s;
     this.restart();
-    this.slow = this.fps < SLOW_FPS ? this.slow + 1 : 0;
+    this.slow = this.fps < SLOW_SHARE * this.hoped_fps ? this.slow + 1 : 0;
     if (this.slow < SLOW_WINDOWS) return false;
     this.slow = 0;
     return true;

@@ -25,7 +25,7 @@ export class Picture {
   private readonly effects = new Effects(() => this.stillness.matches);
   private readonly hud: Hud;
   private readonly overlay: Overlay;
-  private readonly pace = new Pace();
+  private readonly pace: Pace;
   private newest: LiveMessage | null = null;
   private arrived_s = 0;
   private game: GameView | null = null;
@@ -42,6 +42,7 @@ export class Picture {
     private readonly sound: Sound,
   ) {
     this.stage = new Stage(canvas, backdrop, garden());
+    this.pace = new Pace(this.stage.hoped_fps);
     this.limbs = new Limbs((side) => {
       this.stage.look(side);
       this.page.dataset.side = side;
@@ -62,8 +63,9 @@ export class Picture {
     this.react(changes);
   }
 
-  /** Draws the moment `now_s`. */
+  /** Draws the moment `now_s`, unless the last frame is too young for a machine that must be spared. */
   draw(access: Access, now_s: number): void {
+    if (now_s - this.last_s < this.stage.leastFrame_s) return;
     const dt_s = Math.min(LONGEST_STEP_S, now_s - this.last_s);
     this.last_s = now_s;
     const face = faceFor(access, this.newest, now_s - this.arrived_s);

@@ -21,7 +21,11 @@ const LOWEST_SIGHT_RAD = (67.5 * Math.PI) / 180;
 const HEIGHT_RAD = (71 * Math.PI) / 180;
 /** On narrow screens the picture keeps at least this width. */
 const LEAST_WIDTH_RAD = (74 * Math.PI) / 180;
+const FULL_FPS = 60;
 const FINEST_PIXELS = 1.5;
+/** Without a graphics card the processor draws, and the station may need it: half the frames, fewer pixels. */
+const SPARING_FPS = 30;
+const SPARING_PIXELS = 0.75;
 const COARSEST_PIXELS = 0.5;
 const COARSER = 0.75;
 
@@ -30,7 +34,10 @@ export class Stage {
   readonly scene = new Scene();
   readonly camera = new PerspectiveCamera(71, 1, 0.05, 120);
   private readonly renderer: WebGLRenderer;
-  private pixelRatio = Math.min(devicePixelRatio, FINEST_PIXELS);
+  readonly hoped_fps: number;
+  /** No frame sooner than this after the last. */
+  readonly leastFrame_s: number;
+  private pixelRatio: number;
 
   /**
    * The scenery is painted once onto `backdrop`, behind the see-through `canvas`: the eyes never move and nothing acts
@@ -41,9 +48,13 @@ export class Stage {
     private readonly backdrop: HTMLCanvasElement,
     private readonly scenery: Scene,
   ) {
-    const antialias = !drawsInSoftware();
+    const sparing = drawsInSoftware();
+    this.hoped_fps = sparing ? SPARING_FPS : FULL_FPS;
+    // Three quarters of a frame: screens do not keep time exactly.
+    this.leastFrame_s = sparing ? 0.75 / SPARING_FPS : 0;
+    this.pixelRatio = sparing ? SPARING_PIXELS : Math.min(devicePixelRatio, FINEST_PIXELS);
     const powerPreference = "high-performance";
-    this.renderer = new WebGLRenderer({ canvas, antialias, alpha: true, stencil: true, powerPreference });
+    this.renderer = new WebGLRenderer({ canvas, antialias: !sparing, alpha: true, stencil: true, powerPreference });
     this.scene.add(...lights());
     addEventListener("resize", () => this.fit());
     this.look("right");
