@@ -58,7 +58,8 @@ function Row({ sensor }: { sensor: SensorView }) {
   return (
     <tr data-testid="sensor-row" data-aligned={sensor.aligned}>
       <td>
-        <strong>{sensor.sensor}</strong> <span class="soft">{sensor.dialect}</span>
+        <strong>{sensor.sensor}</strong>
+        <div class="soft">{sensor.dialect}</div>
       </td>
       <td>{stateOf(sensor)}</td>
       <td class="number">{figure(sensor.frames_per_s, 1)}</td>

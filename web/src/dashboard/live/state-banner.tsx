@@ -16,7 +16,7 @@ export function StateBanner({ feed, children }: { feed: Feed; children: preact.C
           <div class="state-word" data-testid="state" data-state={state}>
             {t(`state.${state}`)}
           </div>
-          <div class="state-reason">{[...reasons.map(asSentence), ...nextOf(state, reasons)].join(" ")}</div>
+          <div class="state-reason">{[...reasons.map(asSentence), ...nextOf(state, reasons)].join("")}</div>
         </div>
       </div>
       {children}

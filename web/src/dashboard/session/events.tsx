@@ -9,14 +9,14 @@ export function EventList({ events }: { events: readonly SessionEvent[] }) {
     <section class="card">
       <h2>{t("events.title")}</h2>
       {events.length === 0 && <p class="soft">{t("events.none")}</p>}
-      <div class="table-scroll">
+      <div class="table-scroll events">
         <table>
           <tbody>
             {events.map((event) => (
               <tr key={event.id}>
                 <td class="event-time">{clockTime(event.t)}</td>
                 <td class="event-kind">{kindOf(event)}</td>
-                <td>{sentence(event.text)}</td>
+                <td>{textOf(event)}</td>
               </tr>
             ))}
           </tbody>
@@ -29,6 +29,12 @@ export function EventList({ events }: { events: readonly SessionEvent[] }) {
 function kindOf(event: SessionEvent): string {
   if (event.kind === "state") return `${stateOf(event.data?.before)} → ${stateOf(event.data?.after)}`;
   return translatedOr(`event.${event.kind}`, event.kind);
+}
+
+/** Buttons and targets are told by a word that has its own text; all else is a sentence. */
+function textOf({ kind, text }: SessionEvent): string {
+  if (kind === "control") return translatedOr(`control.${text}`, text);
+  return translatedOr(`event.${kind}.${text}`, sentence(text));
 }
 
 function stateOf(state: unknown): string {
