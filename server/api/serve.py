@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import socket
 import sys
 
@@ -39,9 +38,13 @@ def run(config: Config) -> None:
     with locked(folder), _listening(config.host, config.port) as listener:
         app = create_app(config, folder)
         server = _Server(_uvicorn_config(app, config), listener)
-        with contextlib.suppress(KeyboardInterrupt):
+        try:
             server.run(sockets=[listener])
-        _raise_failure(getattr(app.state, "failure", None))
+        except KeyboardInterrupt:
+            return
+        except SystemExit:  # uvicorn's way of saying that the start failed; the lifespan kept why
+            _raise_failure(getattr(app.state, "failure", None))
+            raise
 
 
 class _Server(uvicorn.Server):
@@ -105,6 +108,6 @@ def _no_port(host: str, port: int, why: str) -> MachineError:
 
 def _raise_failure(failure: Exception | None) -> None:
     if isinstance(failure, DatabaseError):
-        raise MachineError(failure.what, failure.expected, failure.remedy)
+        raise MachineError(failure.what, failure.expected, failure.remedy) from failure
     if failure is not None:
         raise failure

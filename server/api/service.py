@@ -10,9 +10,8 @@ from pathlib import Path
 
 from db.database import Database, open_database
 from server.api.auth import Auth, AuthSettings
-from server.api.data_folder import DATABASE
+from server.api.data_folder import DATABASE, until_station_is_gone
 from server.api.demo import Demo
-from server.api.demo_sensors import DemoSensors
 from server.api.forms import Station
 from server.api.journal import Journal
 from server.api.latency import LatencyMeter
@@ -70,10 +69,7 @@ async def running_service(
         stack.push_async_callback(view3d.close)
         link.on_tick.append(relay.take)
         stack.push_async_callback(link.close)
-        if config.demo:
-            sensors = DemoSensors(link, config.station.sensors.bind, data)
-            sensors.start()
-            stack.push_async_callback(sensors.close)
+        await until_station_is_gone(data)
         await link.open()
         recovery = asyncio.create_task(recover(database, data, therapy), name="recover")
         stack.callback(recovery.cancel)
