@@ -17,8 +17,8 @@ from fusion.messages import Floats
 from fusion.skeleton import JOINT_COUNT
 
 FRAME_S: Final = 1 / 30
-ACCELERATION_STD: Final = 16.0
-"""m/s² per 30 Hz frame; 12 to 25 serve, 6 lags behind a reaching hand [methods §5]."""
+ACCELERATION_STD: Final = 12.0
+"""m/s² per 30 Hz frame; 12 to 25 serve, 6 lags behind a reaching hand [methods §5]. The calmest that serves."""
 ACCELERATION_DENSITY: Final = ACCELERATION_STD**2 * FRAME_S  # m²/s³
 START_SPEED_STD: Final = 1.0  # m/s
 
@@ -46,7 +46,8 @@ def unseen(t_s: float) -> Track:
 def predict(track: Track, t_s: float) -> Track:
     """Move on to `t_s`: p + v dt, P → F P F' + Q, with the mean halted three frames after the last measurement.
 
-    Q = q [[dt³/3, dt²/2], [dt²/2, dt]]. The covariance grows through the whole silence, the mean does not fly off.
+    Q = q [[dt³/3, dt²/2], [dt²/2, dt]], q = a²/30 Hz for a white acceleration of a per frame. The covariance grows
+    through the whole silence, the mean does not fly off.
     """
     dt = t_s - track.t_s
     if not 0 < dt < np.inf:  # an older sample, or the very first
@@ -95,6 +96,8 @@ def correct(track: Track, positions: Floats, variance: Floats, used: Flags) -> T
 
 def start(track: Track, positions: Floats, variance: Floats, which: Flags) -> Track:
     """Begin the joints in `which` at the measurement, at rest."""
+    if not which.any():
+        return track
     return replace(
         track,
         position=np.where(which[:, None], positions, track.position),

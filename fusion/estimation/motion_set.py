@@ -89,6 +89,8 @@ def take(motion: MotionSet, positions: Floats, half: Floats, used: Flags) -> tup
 
 def begin(motion: MotionSet, positions: Floats, half: Floats, which: Flags) -> MotionSet:
     """Start the joints in `which` from their box alone, at any speed within the bound."""
+    if not which.any():
+        return motion
     shape = np.zeros((JOINT_COUNT, 3, 2, 2))
     shape[..., 0, 0] = 2 * half**2  # doubled, so that the ellipse holds the whole rectangle
     shape[..., 1, 1] = 2 * SPEED_MAX**2

@@ -171,10 +171,10 @@ def real(folder: Path) -> dict[Way, Score]:
 
 @pytest.mark.recordings
 def test_the_baseline_is_as_good_as_it_is_known_to_be(recordings: Path) -> None:
-    """[methods §5] has rms 32 and p95 61 mm."""
+    """[methods §5] has p95 61 mm; its worst case hangs on whether one wandering wrist gets through the gate."""
     kalman = real(recordings)[KALMAN[0]]
     assert kalman.p50_mm < 25
-    assert kalman.p95_mm < 65
+    assert kalman.p95_mm < 62
 
 
 @pytest.mark.recordings
@@ -188,8 +188,9 @@ def test_set_membership_is_better_than_the_gated_filter_in_rms_p95_and_worst_cas
 @pytest.mark.recordings
 def test_set_membership_keeps_its_figures(recordings: Path) -> None:
     found = real(recordings)[OURS]
-    assert found.rms_mm < 31
-    assert found.p95_mm < 55
+    assert found.rms_mm < 30.5
+    assert found.p95_mm < 54.5
+    assert found.max_mm < 150
     assert found.inside_share >= 0.995
     assert found.bound_p50_mm < 150
     assert found.frames_lost == 0
