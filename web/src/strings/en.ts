@@ -186,6 +186,9 @@ export const en = {
   "state.hold.next": "The arm is held where it is. Press Resume when the patient is ready.",
   "state.fault.next": "Find the cause, then press Reset. The arm stays still until Start is pressed again.",
   "state.stopped.next": "When all is well press Reset, then Start.",
+  "state.interrupted": "Interrupted",
+  "state.interrupted.next":
+    "The station was started again during this session. End the session; what was recorded is kept.",
   "state.connecting.next": "One moment …",
   "state.lost.next":
     "This page is trying again by itself. If the arm must stop now, use the emergency stop at the device.",

@@ -183,6 +183,8 @@ export const zh: Record<Key, string> = {
   "state.hold.next": "手臂保持在当前位置。患者准备好后按“继续”。",
   "state.fault.next": "查明原因后按“复位”。再次按“开始”之前手臂不会动。",
   "state.stopped.next": "确认无碍后按“复位”，再按“开始”。",
+  "state.interrupted": "已中断",
+  "state.interrupted.next": "治疗期间工作站重新启动过。请结束本次治疗，已记录的内容会保留。",
   "state.connecting.next": "请稍候……",
   "state.lost.next": "页面正在自动重连。若需立即停止，请按设备上的急停按钮。",
   "sensor.name": "传感器",

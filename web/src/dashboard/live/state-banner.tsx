@@ -1,5 +1,5 @@
 // The arm's state, large: sign, word, why, and what to do next.
-import type { LiveTick } from "../../api/types";
+import type { LiveMessage, LiveTick } from "../../api/types";
 import { t } from "../../strings";
 import { sentence } from "../format";
 import { type Feed, useFromFeed } from "./feed";
@@ -38,11 +38,16 @@ function nextOf(state: Face["state"], reasons: readonly string[]): string[] {
 
 /** The banner as text, so that it is drawn again only when it says something else. */
 function faceOf(feed: Feed): string {
-  return JSON.stringify(feed.link === "open" && feed.newest ? faceOfTick(feed.newest.tick) : faceWithout(feed));
+  return JSON.stringify(feed.link === "open" && feed.newest ? faceOfMessage(feed.newest) : faceWithout(feed));
 }
 
 function faceWithout(feed: Feed): Face {
   return { state: feed.link === "lost" ? "lost" : "connecting", reasons: [] };
+}
+
+/** Once the station has died, a session can only be ended, whatever the arm's state. */
+function faceOfMessage({ tick, session }: LiveMessage): Face {
+  return session?.phase === "interrupted" ? { state: "interrupted", reasons: [] } : faceOfTick(tick);
 }
 
 /** Ready and moving explain themselves; what still blocks the way says more than the state's own reason. */

@@ -34,7 +34,8 @@ function kindOf(event: SessionEvent): string {
 /** Buttons and targets are told by a word that has its own text; all else is a sentence. */
 function textOf({ kind, text }: SessionEvent): string {
   if (kind === "control") return translatedOr(`control.${text}`, text);
-  return translatedOr(`event.${kind}.${text}`, sentence(text));
+  const [word = ""] = text.split(",", 1);
+  return translatedOr(`event.${kind}.${word}`, sentence(text));
 }
 
 function stateOf(state: unknown): string {
