@@ -30,8 +30,9 @@ from server.station.exo.driver import Drive, DriveCommand, DriveReading
 from server.station.exo.evidence import SafetyInputs
 from server.station.exo.mapping import joint_target
 from server.station.exo.safety import SafetyState
+from server.station.exo.smoothing import Calm, calmed
 from server.station.perception import Heard, Perception
-from server.station.sources.udp import UdpSource
+from server.station.sources.source import Source
 from server.station.view import Build
 from server.station.warnings import Trouble, Warnings
 
@@ -55,7 +56,7 @@ class Loop:
     def __init__(
         self,
         config: StationConfig,
-        source: UdpSource,
+        source: Source,
         perception: Perception,
         drive: Drive,
         channels: StationChannels,
@@ -68,6 +69,7 @@ class Loop:
         self._warnings = Warnings()
         self._state = SafetyState()
         self._build = Build()
+        self._calm = Calm()
         self._index = 0
         self._heartbeat_s = float("-inf")
         self._frame = PipelineFrame(t_s=0.0, sensors=(), samples=())
@@ -146,9 +148,11 @@ class Loop:
         open_session = self._desk.session
         middle = sum((self._config.device[0].min_rad, self._config.device[0].max_rad)) / 2
         newest_s = self._frame.newest_received_s
+        seen = joint_target(self._frame.target, self._state.motions[0].angle_rad, middle)
+        self._calm, target = calmed(self._calm, seen, 1.0 / self._config.rate_hz)
         inputs = SafetyInputs(
             reading=reading,
-            target=joint_target(self._frame.target, self._state.motions[0].angle_rad, middle),
+            target=target,
             evidence_age_s=float("inf") if isnan(newest_s) else now_s - newest_s,
             service_age_s=now_s - self._heartbeat_s,
             limits=open_session.limits if open_session else (),
@@ -208,7 +212,7 @@ class Loop:
             tick_s=self._last_tick_s,
             overruns=self._overruns,
             datagrams=counts.datagrams,
-            datagrams_refused=counts.refused_in_all + self._source.refused,
+            datagrams_refused=counts.refused_in_all + self._source.losses.in_all,
             ticks_dropped=self._ticks_missed,
             recorder_dropped=recorder.dropped if recorder else 0,
         )
@@ -238,14 +242,14 @@ class Loop:
             self._tell(warned)
 
     def _troubles(self) -> tuple[Trouble, ...]:
-        recorder = self._desk.recorder
+        recorder, losses = self._desk.recorder, self._source.losses
         garbage = self._perception.decoder.counts().refused_in_all
         return (
             Trouble("overrun", self._overruns, "The control loop was late {more} times."),
             Trouble("garbage", garbage, "{more} messages from sensors could not be read."),
-            Trouble("oversized", self._source.oversized, "{more} datagrams were longer than a sensor's ever are."),
-            Trouble("stranger", self._source.strangers, "{more} datagrams came from senders that are not allowed."),
-            Trouble("flood", self._source.overflowed, "{more} datagrams were lost: they came faster than can be read."),
+            Trouble("oversized", losses.oversized, "{more} datagrams were longer than a sensor's ever are."),
+            Trouble("stranger", losses.strangers, "{more} datagrams came from senders that are not allowed."),
+            Trouble("flood", losses.overflowed, "{more} datagrams were lost: they came faster than can be read."),
             Trouble(
                 "perception", self._perception.errors, "The body had to be found anew after an error (see the log)."
             ),

@@ -14,22 +14,29 @@ SWITCH_S = 0.0005
 """How long another thread (the recorder) may keep the interpreter while a tick is due."""
 
 
-def prepare() -> bool:
-    """Make this process fit to keep time.
+def ask_for_priority() -> bool:
+    """Real-time priority, where the system grants it, for this thread and all that it will start.
 
-    What lives now is taken out of the garbage collector's sight, threads give way sooner, and where the system grants
-    it the loop's thread gets real-time priority; its children and other threads do not.
-
-    Returns:
-        Whether real-time priority was granted.
+    The recorder's thread and ZeroMQ's need it too: a thread of ordinary priority that is suspended by other programs
+    while it holds the interpreter's lock would hold up the loop.
     """
+    with suppress(AttributeError, OSError):
+        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(PRIORITY))
+        return True
+    return False
+
+
+def give_up_priority() -> None:
+    """Ordinary priority again; for children that inherited more."""
+    with suppress(AttributeError, OSError):
+        os.sched_setscheduler(0, os.SCHED_OTHER, os.sched_param(0))
+
+
+def settle() -> None:
+    """Take what lives now out of the garbage collector's sight, and let threads give way sooner."""
     gc.collect()
     gc.freeze()
     sys.setswitchinterval(SWITCH_S)
-    with suppress(AttributeError, OSError):
-        os.sched_setscheduler(0, os.SCHED_FIFO | os.SCHED_RESET_ON_FORK, os.sched_param(PRIORITY))
-        return True
-    return False
 
 
 def keep_time(
@@ -51,12 +58,13 @@ def keep_time(
     period_s = 1.0 / rate_hz
     due_s = time.monotonic()
     while goes_on():
-        late_s = time.monotonic() - due_s
-        if late_s < 0:
-            time.sleep(-late_s)
-        elif late_s > period_s:
-            slots = int(late_s / period_s)
+        early_s = due_s - time.monotonic()
+        if early_s > 0:
+            time.sleep(early_s)
+        now_s = time.monotonic()
+        slots = int((now_s - due_s) / period_s)
+        if slots:
             missed(slots)
             due_s += slots * period_s
-        step(time.monotonic())
+        step(now_s)
         due_s += period_s

@@ -45,6 +45,7 @@ def run(start: StationStart) -> None:
     with ExitStack() as stack:
         stack.enter_context(only_one(data))
         stack.enter_context(logging_to(data / "logs" / "realtime.log"))
+        log.info("real-time priority %s", "granted" if pacemaker.ask_for_priority() else "not granted")
         config = start.station
         source = stack.enter_context(UdpSource(config.sensors))
         perception = Perception(PipelineSettings(Side.LEFT, config.method, config.reference))
@@ -56,7 +57,7 @@ def run(start: StationStart) -> None:
         vigil = Vigil()
         if start.demo:
             vigil.sensors = stack.enter_context(demonstration_sensors(start, source))
-        log.info("real-time priority %s", "granted" if pacemaker.prepare() else "not granted")
+        pacemaker.settle()
         loop.announce(time.monotonic())
         pacemaker.keep_time(loop.step, loop.count_overruns, config.rate_hz, vigil.goes_on)
         _leave(loop, config.rate_hz)

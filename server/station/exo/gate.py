@@ -121,7 +121,7 @@ def _watch_lost(gate: GateState, facts: Facts, config: GateConfig, now_s: float)
     if facts.silence:
         return replace(gate, reason=facts.silence, lost=False)
     if now_s - gate.since_s > config.resume_within_s:
-        return replace(gate, reason=f"{gate.reason}; a person resumes", lost=False)
+        return replace(gate, reason=f"{gate.reason} A person resumes.", lost=False)
     if facts.lost or facts.blockers or not facts.near:
         return gate
     return replace(gate, state=ENGAGED, reason="", since_s=now_s, lost=False)

@@ -17,8 +17,6 @@ from server.station.exo.driver import ZERO, Joints
 
 CONE_RAD: Final = (0.12, 0.40)
 """Elevation below which the plane is held, and above which it is free."""
-STEP_S: Final = 0.02
-"""Step of the difference quotient that turns the direction's velocity into joint velocities."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,6 +25,7 @@ class JointTarget:
 
     angle_rad: Joints
     velocity_rad_s: Joints
+    """How fast they are to be taken to move; none until `smoothing` has observed it."""
     bound_rad: Joints
     """How uncertain each is."""
     freedom: Joints
@@ -52,7 +51,7 @@ def joint_target(target: MirrorTarget | None, plane_now_rad: float, plane_middle
         target.elbow_rad,
     )
     bounds = (target.swing_bound_rad, target.swing_bound_rad, target.twist_bound_rad, target.elbow_bound_rad)
-    return JointTarget(angles, _velocities(target, plane, elevation, freedom), bounds, (freedom, 1.0, 1.0, 1.0))
+    return JointTarget(angles, ZERO, bounds, (freedom, 1.0, 1.0, 1.0))
 
 
 def _is_number(target: MirrorTarget) -> bool:
@@ -65,19 +64,6 @@ def _is_number(target: MirrorTarget) -> bool:
         target.elbow_bound_rad,
     )
     return all(map(isfinite, values))
-
-
-def _velocities(target: MirrorTarget, plane: float, elevation: float, freedom: float) -> Joints:
-    """Joint velocities; none where the target's are not known."""
-    if not all(map(isfinite, (*target.direction_velocity, target.twist_rad_s, target.elbow_rad_s))):
-        return ZERO
-    soon, soon_elevation = swing_from_direction(target.direction_in_limb + STEP_S * target.direction_velocity)
-    return (
-        freedom * _unwrapped(soon - plane, 0.0) / STEP_S,
-        (soon_elevation - elevation) / STEP_S,
-        target.twist_rad_s,
-        target.elbow_rad_s,
-    )
 
 
 def cone_freedom(elevation_rad: float) -> float:

@@ -14,6 +14,7 @@ from typing import Final, Self
 from fusion.errors import InputError, MachineError
 from fusion.messages import Packet
 from server.config import SensorsConfig
+from server.station.sources.source import Losses
 
 # Linux's numbers, which Python's socket module does not name.
 SO_TIMESTAMPNS: Final = 35
@@ -49,8 +50,8 @@ class UdpSource:
         self._first = 0
         self._offset_ns = _monotonic_minus_wall_ns()
         self._overflows: dict[int, int] = {}
-        self.oversized = 0
-        self.strangers = 0
+        self._oversized = 0
+        self._strangers = 0
         with ExitStack() as stack:
             self._sockets = [stack.enter_context(_open(config.bind, port, name)) for name, port in config.ports.items()]
             self._stack = stack.pop_all()
@@ -61,14 +62,9 @@ class UdpSource:
         return {name: s.getsockname()[1] for name, s in zip(self._config.ports, self._sockets, strict=True)}
 
     @property
-    def overflowed(self) -> int:
-        """Datagrams that the kernel threw away because they came faster than they were taken."""
-        return sum(self._overflows.values())
-
-    @property
-    def refused(self) -> int:
-        """Datagrams that were not passed on, for any reason."""
-        return self.oversized + self.strangers + self.overflowed
+    def losses(self) -> Losses:
+        """What was not passed on."""
+        return Losses(self._oversized, self._strangers, sum(self._overflows.values()))
 
     def drain(self) -> list[Packet]:
         """Everything that has come since, at most `datagrams_per_tick`; the rest waits. Never blocks."""
@@ -110,9 +106,9 @@ class UdpSource:
             elif kind == SO_RXQ_OVFL:
                 self._overflows[at] = _COUNT.unpack(data[: _COUNT.size])[0]
         if not self._is_allowed(sender):
-            self.strangers += 1
+            self._strangers += 1
         elif len(payload) > self._config.datagram_bytes:
-            self.oversized += 1
+            self._oversized += 1
         else:
             packets.append(Packet(sender, t_s, payload))
 

@@ -21,6 +21,7 @@ from fusion.virtual_patient.sensor import SensorPose, VirtualSensor
 from server.channels import DemonstrationChannels
 from server.messages import EXO_JOINTS, DemoGoal
 from server.station.demonstration import ADDRESSES
+from server.station.pacemaker import give_up_priority
 
 STEP_S = 1 / 60
 SECOND_LATE_S = 0.02
@@ -119,6 +120,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--port", type=int, required=True, help="its port for kinectv2-osc")
     parser.add_argument("--parent", type=int, required=True, help="process to end with")
     options = parser.parse_args(arguments)
+    give_up_priority()
     try:
         channels, stage = DemonstrationChannels(options.channels), VirtualStage(options.host, options.port)
     except MirrorlimbError as error:

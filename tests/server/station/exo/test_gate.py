@@ -130,7 +130,7 @@ def test_sr5_a_short_loss_far_from_the_arm_or_with_a_blocker_stays(facts: Facts)
 def test_sr5_a_loss_longer_than_two_seconds_needs_a_person() -> None:
     held = gate.watch(_lost_at(1.0), Facts(near=True), CONFIG, 3.1)
     assert held.state is DriveState.HOLD
-    assert "a person resumes" in held.reason
+    assert "A person resumes" in held.reason
     assert gate.watch(held, Facts(near=True), CONFIG, 3.2).state is DriveState.HOLD
     assert gate.wish(held, Resume(number=1), Facts(near=True), 4.0)[0].state is DriveState.ENGAGED
 

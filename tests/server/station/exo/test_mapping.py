@@ -23,7 +23,6 @@ def mirror_target(
     plane: float = 0.8,
     elevation: float = 0.9,
     *,
-    velocity: tuple[float, float, float] = (0.0, 0.0, 0.0),
     bound: float = 0.1,
     twist: float = 0.2,
     valid: bool = True,
@@ -34,7 +33,7 @@ def mirror_target(
         direction_in_limb=direction_from_swing(plane, elevation),
         twist_rad=twist,
         elbow_rad=1.1,
-        direction_velocity=np.array(velocity),
+        direction_velocity=np.zeros(3),
         twist_rad_s=0.3,
         elbow_rad_s=-0.4,
         swing_bound_rad=bound,
@@ -56,14 +55,6 @@ def test_the_joints_point_the_arm_where_the_target_does(plane: float, elevation:
     mapped = _mapped(mirror_target(plane, elevation))
     assert mapped.angle_rad == pytest.approx((plane, elevation, 0.2, 1.1), abs=1e-9)
     assert mapped.bound_rad == (0.1, 0.1, 0.2, 0.1)
-
-
-def test_the_velocities_are_those_of_the_angles() -> None:
-    step_s = 1e-4
-    before, after = direction_from_swing(0.8, 0.9), direction_from_swing(0.8 + 0.5 * step_s, 0.9 + 0.7 * step_s)
-    velocity = tuple((after - before) / step_s)
-    mapped = _mapped(mirror_target(velocity=velocity))
-    assert mapped.velocity_rad_s == pytest.approx((0.5, 0.7, 0.3, -0.4), abs=0.02)
 
 
 def test_inside_the_cone_the_plane_stays_where_it_is_commanded() -> None:
@@ -97,7 +88,3 @@ def test_sr2_a_target_that_is_not_a_number_is_no_target(wrong: float) -> None:
     assert joint_target(astray, 0.0, MIDDLE) is None
     assert joint_target(mirror_target(twist=wrong), 0.0, MIDDLE) is None
     assert joint_target(mirror_target(bound=float("nan")), 0.0, MIDDLE) is None
-
-
-def test_sr2_a_velocity_that_is_not_a_number_is_taken_as_none() -> None:
-    assert _mapped(mirror_target(velocity=(float("nan"), 0.0, 0.0))).velocity_rad_s == (0.0, 0.0, 0.0, 0.0)

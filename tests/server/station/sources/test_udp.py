@@ -12,6 +12,7 @@ from fusion.errors import InputError, MachineError
 from fusion.messages import Packet
 from server.config import SensorsConfig
 from server.station.sources import udp
+from server.station.sources.source import Losses
 from server.station.sources.udp import UdpSource
 
 
@@ -76,8 +77,8 @@ def test_sr15_what_comes_faster_than_it_is_read_is_counted(sender: socket.socket
         taken = len(source.drain())
         sender.sendto(b"x", _target(source))
         taken += len(_all(source, 1))
-        assert taken + source.overflowed == 20_001
-        assert source.refused == source.overflowed > 0
+        assert taken + source.losses.overflowed == 20_001
+        assert source.losses.in_all == source.losses.overflowed > 0
 
 
 def test_sr15_an_oversized_datagram_is_refused_and_counted(sender: socket.socket) -> None:
@@ -85,7 +86,7 @@ def test_sr15_an_oversized_datagram_is_refused_and_counted(sender: socket.socket
         sender.sendto(b"x" * 101, _target(source))
         sender.sendto(b"x" * 100, _target(source))
         assert [len(packet.payload) for packet in _all(source, 1)] == [100]
-        assert (source.oversized, source.refused) == (1, 1)
+        assert source.losses == Losses(oversized=1)
 
 
 def test_sr15_only_allowed_senders_are_read(sender: socket.socket) -> None:
@@ -97,7 +98,7 @@ def test_sr15_only_allowed_senders_are_read(sender: socket.socket) -> None:
         stranger.sendto(b"no", _target(source))
         sender.sendto(b"yes", _target(source))
         assert [packet.payload for packet in _all(source, 1)] == [b"yes"]
-        assert source.strangers == 1
+        assert source.losses == Losses(strangers=1)
 
 
 def test_a_port_in_use_is_named_with_what_to_do() -> None:
