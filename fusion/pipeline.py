@@ -134,7 +134,8 @@ class Pipeline:
     def sensors(self, t_s: float) -> tuple[SensorQuality, ...]:
         """How each sensor does."""
         reference = self._sensors.get(self._reference or "")
-        return tuple(watch.quality(t_s, reference) for watch in self._sensors.values())
+        lead_s = self.lead_s
+        return tuple(watch.quality(t_s, reference, lead_s) for watch in self._sensors.values())
 
     @property
     def lead_s(self) -> float:

@@ -9,7 +9,7 @@ import numpy as np
 from fusion.align.alignment import SensorAlignment
 from fusion.align.plausible import Fault, handedness_fault
 from fusion.align.space import Moments, Mounting, RobustFit, fit_robustly
-from fusion.align.space_time import alignment_of, fit_space_time, offset_step, refine
+from fusion.align.space_time import CORRELATION_STD_S, alignment_of, fit_space_time, offset_step, refine
 from fusion.align.track import BodyTrack, Pairs, pair
 
 WINDOW_S = 10.0
@@ -17,7 +17,11 @@ WINDOW_S = 10.0
 EVERY_S = 0.5
 SETTLE_EVERY_S = 2.0
 MEMORY_S = 60.0
-"""Settled frames fade with this time constant, so that a tripod that sinks or a clock that drifts is followed."""
+"""Settled frames fade with this time constant, so that a tripod that sinks or a clock that drifts is followed.
+Time counts as far as the patient moved."""
+NEW_POSE_M, LEAST_NEWS = 0.5, 0.05
+"""A look in which the joints went this far on average counts fully once it is settled. Somebody who stands still shows
+the same errors over and over: ten seconds of that turned a sensor by 12° and would weigh down all that comes later."""
 LONGEST_OFFSET_S = 0.5
 """Live, the receive clock is common; what is left is the difference of two senders' delays."""
 LEARNING_FRAMES = 60
@@ -51,14 +55,16 @@ class AlignmentLearner:
         self.moved = False
         """Whether the sensor was found moved and is being learnt anew."""
         self._settled: _Settled | None = None
-        self._not_before_s = -np.inf
+        self._not_before_s = self._looked_s = -np.inf
         self._first_s: float | None = None
+        self._first_offset_s = 0.0
 
     def learn(self, reference: BodyTrack, sensor: BodyTrack) -> None:
         """Take the last `WINDOW_S` of both tracks; call it about every `EVERY_S`."""
         reference = reference.since(self._not_before_s)
-        if len(reference.t_s) < FEWEST_FRAMES or len(sensor.t_s) < FEWEST_FRAMES:
+        if min(len(reference.t_s), len(sensor.t_s)) < FEWEST_FRAMES or reference.t_s[-1] <= self._looked_s:
             return
+        self._looked_s = float(reference.t_s[-1])
         if self.alignment is None:
             self._search(reference, sensor)
         elif self._settled is None:
@@ -75,17 +81,24 @@ class AlignmentLearner:
         self.fault = handedness_fault(pairs)
         if self.fault is None and trusted(found):
             self.alignment, self.moved = found, False
-            self._first_s = float(reference.t_s[0])
+            self._first_s, self._first_offset_s = float(reference.t_s[0]), found.clock_offset_s
 
     def _deepen(self, reference: BodyTrack, sensor: BodyTrack, now: SensorAlignment) -> None:
         """While the first frames are still in the window, weigh all of them anew; settle them when it is full."""
-        better = refine(reference, sensor, now.clock_offset_s, 2, LEARNING_FRAMES, _mounting(now))
+        better = refine(
+            reference, sensor, now.clock_offset_s, 2, LEARNING_FRAMES, _mounting(now), prior_s=self._first_offset_s
+        )
         if better is not None and trusted(better):
             self.alignment = better
         if reference.t_s[-1] - (self._first_s or reference.t_s[0]) > WINDOW_S - SETTLE_EVERY_S:
             pairs, fit = self._fit(reference, sensor, self.alignment or now, None)
             step = offset_step(pairs, fit.mounting, pairs.weight)
-            self._settled = _Settled(fit.moments(pairs), step.information, float(reference.t_s[-1]) - 0.3, pairs.frames)
+            self._settled = _Settled(
+                fit.moments(pairs).faded(_news(reference)),
+                step.information + 1.0 / CORRELATION_STD_S**2,
+                float(reference.t_s[-1]) - 0.3,
+                pairs.frames,
+            )
 
     def _go_on(self, reference: BodyTrack, sensor: BodyTrack, now: SensorAlignment, settled: _Settled) -> None:
         """Recursion: the new frames on top of the settled sums."""
@@ -101,11 +114,12 @@ class AlignmentLearner:
         pairs, fit = self._fit(fresh, sensor, now, settled.moments)
         step = offset_step(pairs, fit.mounting, np.where(fit.swapped[:, None], 0.0, pairs.weight))
         share = step.information / max(step.information + settled.offset_information, 1e-9)
-        fade = float(np.exp(-(fresh.t_s[-1] - settled.until_s) / MEMORY_S))
+        news = _news(fresh)
+        fade = float(np.exp(-news * (fresh.t_s[-1] - settled.until_s) / MEMORY_S))
         frames = settled.frames + pairs.frames
         self.alignment = _renewed(now, fit, now.clock_offset_s + share * step.change_s, frames)
         self._settled = _Settled(
-            settled.moments.faded(fade).joined(fit.moments(pairs)),
+            settled.moments.faded(fade).joined(fit.moments(pairs).faded(news)),
             (settled.offset_information + step.information) * fade,
             float(fresh.t_s[-1]) - 0.3,
             frames,
@@ -144,6 +158,11 @@ def _renewed(now: SensorAlignment, fit: RobustFit, offset_s: float, frames: int)
     found = alignment_of(fit, offset_s, frames)
     residual = now.residual_m + 0.1 * (fit.residual_m - now.residual_m)
     return replace(found, residual_m=residual)
+
+
+def _news(track: BodyTrack) -> float:
+    """How much a look adds to what was known, from next to nothing (standing still) to 1."""
+    return float(np.clip(track.path_m() / NEW_POSE_M, LEAST_NEWS, 1.0))
 
 
 def _mounting(alignment: SensorAlignment) -> Mounting:

@@ -22,6 +22,8 @@ OFFSET_NOISE_M = 0.02
 """No pair of sensors agrees better than this on a moving joint."""
 CORRELATION_STD_S = 0.03
 """How far the best correlation of speeds is usually off; it steadies the fit where there was little motion."""
+LEAST_CORRELATION = 0.4
+"""On clocks known to be close, a weaker agreement of speeds (somebody stands still) is worth less than no offset."""
 SETTLED_S = 2e-4
 MOST_FRAMES = 1200
 """A long recording is thinned to this many frames, evenly."""
@@ -83,7 +85,9 @@ def fit_space_time(
     """
     if min(len(reference.t_s), len(sensor.t_s)) < FEWEST_FRAMES:
         return None
-    starts = offset_candidates(reference, sensor, longest_s, candidates) or (OffsetCandidate(0.0, 1.0),)
+    starts = offset_candidates(reference, sensor, longest_s, candidates)
+    if not starts or (np.isfinite(longest_s) and starts[0].correlation < LEAST_CORRELATION):
+        starts = (OffsetCandidate(0.0, 1.0),)
     few = most // 4
     best = min(starts, key=lambda start: _unlikeness(refine(reference, sensor, start.offset_s, 2, few), start))
     return refine(reference, sensor, best.offset_s, rounds, most)
@@ -101,9 +105,20 @@ def refine(
     rounds: int,
     most: int = MOST_FRAMES,
     start: Mounting | None = None,
+    prior_s: float | None = None,
 ) -> SensorAlignment | None:
-    """Settle mounting and offset near a first offset; None where the tracks have too few frames in common."""
-    start_s = offset_s
+    """Settle mounting and offset near a first offset; None where the tracks have too few frames in common.
+
+    Args:
+        reference: the patient as the reference sensor saw them.
+        sensor: the same person in the other sensor.
+        offset_s: where to start.
+        rounds: how often at most to alternate.
+        most: how many frames to look at.
+        start: the mounting to start from.
+        prior_s: the offset that the speeds gave, which steadies the result; `offset_s` when None.
+    """
+    prior_s = offset_s if prior_s is None else prior_s
     for _ in range(rounds):
         pairs = pair(reference, sensor, offset_s, most)
         if pairs.frames < FEWEST_FRAMES:
@@ -111,7 +126,7 @@ def refine(
         fit = fit_robustly(pairs, start=start)
         start = fit.mounting
         step = offset_step(pairs, fit.mounting, np.where(fit.swapped[:, None], 0.0, pairs.weight))
-        change_s = step.steadied(start_s - offset_s, CORRELATION_STD_S)
+        change_s = step.steadied(prior_s - offset_s, CORRELATION_STD_S)
         offset_s += change_s
         if abs(change_s) < SETTLED_S:
             break

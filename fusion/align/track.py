@@ -14,6 +14,7 @@ LONGEST_BRIDGE_S = 0.11
 VELOCITY_SPAN_S = 0.1
 """Half the span of the central difference that gives a joint's velocity: a centimetre of noise makes 7 cm/s."""
 USUAL_RATE_HZ = 30.0
+PATH_STEP_S, JITTER_M = 0.5, 0.01
 STATE_WEIGHT = np.array([0.0, 1.0 / 16.0, 1.0])
 """Lost, inferred, tracked: inverse variances, an inferred joint being about four times as far off."""
 
@@ -62,6 +63,14 @@ class BodyTrack:
         share = share[:, None, None]
         positions = (1 - share) * self.positions[before] + share * self.positions[after]
         return np.where((state > 0)[..., None], positions, np.nan), state
+
+    def path_m(self) -> float:
+        """How far the joints went, on average, in steps of half a second; jitter is taken off."""
+        if len(self.t_s) < 2:
+            return 0.0
+        positions, _ = self.at(np.arange(self.t_s[0], self.t_s[-1], PATH_STEP_S))
+        went = np.linalg.norm(np.diff(positions, axis=0), axis=2)
+        return float(np.maximum(went[np.isfinite(went)] - JITTER_M, 0.0).sum() / self.positions.shape[1])
 
     def velocities_at(self, t_s: Floats) -> Floats:
         """Central differences (M, J, 3) m/s; NaN where a joint is not seen around the instant."""

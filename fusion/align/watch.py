@@ -150,8 +150,14 @@ class SensorWatch:
 
     # --- what is told
 
-    def quality(self, now_s: float, reference: SensorWatch | None) -> SensorQuality:
-        """What a therapist wants to know, at `now_s` on the common clock."""
+    def quality(self, now_s: float, reference: SensorWatch | None, lead_s: float) -> SensorQuality:
+        """What a therapist wants to know.
+
+        Args:
+            now_s: on the common clock.
+            reference: the reference sensor's watch.
+            lead_s: how far the fastest sensor is ahead of the reference.
+        """
         found = self.alignment
         is_reference = reference is self
         last = self._last
@@ -159,7 +165,7 @@ class SensorWatch:
             sensor=self.sensor,
             is_reference=is_reference,
             frames_per_s=self._rate(now_s),
-            latency_s=self.clock.delay_s,
+            latency_s=self.clock.delay_s + self._lag_s(lead_s),
             joints_tracked=int(np.count_nonzero(last.state == TrackingState.TRACKED)) if last else 0,
             clock_offset_s=self._clock_offset(reference),
             residual_m=0.0 if is_reference else found.residual_m if found else float("nan"),
@@ -172,6 +178,12 @@ class SensorWatch:
     def _rate(self, now_s: float) -> float:
         recent = [t_s for t_s in self._times if now_s - RATE_OVER_S < t_s]
         return (len(recent) - 1) / max(recent[-1] - recent[0], 1e-3) if len(recent) > 1 else 0.0
+
+    def _lag_s(self, lead_s: float) -> float:
+        """How far this sensor is behind the fastest one, as far as that is known."""
+        if self._given is not None:
+            return 0.0
+        return lead_s + (self.alignment.clock_offset_s if self.alignment else 0.0)
 
     def _clock_offset(self, reference: SensorWatch | None) -> float:
         """From the sensor's own clock to the reference's own: the learnt offset and both clocks' differences."""

@@ -58,6 +58,8 @@ def test_two_unknown_sensors_are_aligned_and_fused_while_they_come(bodies, room)
     assert quality(last, "left").is_reference
     assert quality(last, "right").aligned
     assert quality(last, "right").clock_offset_s == pytest.approx(0.137, abs=0.03)
+    assert quality(last, "right").latency_s == pytest.approx(0.137, abs=0.03)
+    assert quality(last, "left").latency_s == 0.0
     assert quality(last, "right").frames_per_s == pytest.approx(30.0, abs=1.0)
     errors = [np.linalg.norm(f.fused.positions_in_room[HAND] - bodies.body_at(f.t_s)[HAND]) for f in frames[150:]]
     assert np.median(errors) < 0.03

@@ -75,6 +75,23 @@ def test_a_sensor_that_is_mirrored_or_has_its_sides_exchanged_is_never_trusted(b
     assert learner.fault is not None
 
 
+def test_standing_still_neither_drifts_nor_weighs_down_what_comes_later(bodies, times):
+    """Errors that a pose brings do not average out while it is kept."""
+    lean = np.random.default_rng(3).normal(0, 0.05, (1, 25, 3))
+    moving = bodies.track(np.maximum(times - 20.0, 0.0), TURN, PLACE, noise_m=0.005, seed=2)
+    reference = bodies.track(np.maximum(times - 20.0, 0.0), noise_m=0.005, seed=1)
+    still = (times < 20.0)[:, None, None]
+    sensor = BodyTrack(times, moving.positions + np.where(still, lean, 0.0), moving.state)
+    reference = BodyTrack(times, reference.positions, reference.state)
+    learner = AlignmentLearner()
+    live(learner, reference, sensor, 20.0)
+    assert abs(learner.alignment.clock_offset_s) < 0.05
+    bent_deg = angle_deg(learner, TURN)
+    assert bent_deg > 1.0
+    live(learner, reference, sensor, 32.0, 20.0)
+    assert angle_deg(learner, TURN) < 0.25 * bent_deg
+
+
 def test_two_different_people_are_not_aligned(bodies, times):
     reference = bodies.track(times, noise_m=0.02, seed=1)
     stranger = bodies.track(times + 7.3, TURN, PLACE, noise_m=0.02, seed=2, walk_m=1.2)
