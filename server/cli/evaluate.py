@@ -50,8 +50,13 @@ def evaluate(
     if json_file is not None:
         _write(json_file, json.dumps(_as_json(evaluations), indent=1) + "\n")
     if markdown is not None:
-        names = " ".join(path.name for path in recording)
-        _write(str(markdown), page(evaluations, f"mirrorlimb evaluate {names} --markdown {markdown.name}"))
+        _write(str(markdown), page(evaluations, _command(recording, markdown)))
+
+
+def _command(recordings: Sequence[Path], markdown: Path) -> str:
+    """What makes the page again, without this machine's folders."""
+    page_name = markdown.name if markdown.is_absolute() else markdown.as_posix()
+    return f"mirrorlimb evaluate {' '.join(path.name for path in recordings)} --markdown {page_name}"
 
 
 def _known(methods: list[str]) -> list[str]:
