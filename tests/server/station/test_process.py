@@ -1,0 +1,184 @@
+"""The real station process: a session with the virtual patient, and every way of ending."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import signal
+import socket
+import sys
+import time
+from itertools import pairwise
+from pathlib import Path
+
+import msgspec
+import numpy as np
+import pytest
+from live_station import PORT, LiveStation
+from mcap.exceptions import McapError
+from mcap.reader import NonSeekingReader
+
+from fusion.recording.log import TICKS
+from fusion.recording.reader import read_recording
+from server.channels import private_folder
+from server.config import SensorsConfig, StationConfig, StationStart, write_start
+from server.messages import CloseSession, DriveState, Enable, LiveTick, SessionClosed, Stop
+
+HANDS = [(0.35, 0.05, -0.30), (0.15, -0.15, -0.40)]
+_decode = msgspec.msgpack.Decoder(LiveTick).decode
+
+
+def _recorded_ticks(path: Path) -> list[LiveTick]:
+    """What can be read, also of a recording that was cut off."""
+    ticks: list[LiveTick] = []
+    with path.open("rb") as file:
+        try:
+            for _, channel, message in NonSeekingReader(file).iter_messages(log_time_order=False):
+                if channel.topic == TICKS:
+                    ticks.append(_decode(message.data))
+        except McapError:
+            pass
+    return ticks
+
+
+async def test_a_whole_session_with_the_virtual_patient(tmp_path: Path) -> None:
+    path = tmp_path / "session.mcap"
+    async with LiveStation(tmp_path, demo=True) as station:
+        assert (await station.ask(station.session(path))).accepted
+        await station.tick(lambda tick: tick.may_enable, 20)
+        assert (await station.ask(lambda number: Enable(number=number))).accepted
+        await station.tick(lambda tick: tick.exo.blend == 1.0, 10)
+        before = station.ticks[-1]
+        await station.reach(HANDS, 1.5)
+        moved = np.abs(np.array([t.exo.angle_rad for t in station.ticks[-300:]]) - before.exo.angle_rad).max()
+        assert moved > 0.2
+        stopped = await station.ask(lambda number: Stop(number=number, reason="pain"))
+        assert stopped.state is DriveState.STOPPED
+        at_rest = await station.tick(lambda tick: not any(tick.exo.command_velocity_rad_s), 5)
+        assert at_rest.reason == "pain"
+        assert (await station.ask(lambda number: CloseSession(number=number))).accepted
+        closed = await station.event(SessionClosed, 10)
+        assert closed.recording == str(path)
+    assert station.process.returncode == 0
+    recorded = read_recording(path)
+    assert {stream.sensor for stream in recorded.skeleton_streams} == {"127.0.1.1", "127.0.1.2"}
+    ticks = _recorded_ticks(path)
+    assert all(after.index == before.index + 1 for before, after in pairwise(ticks))
+    assert {tick.state for tick in ticks} >= {DriveState.READY, DriveState.ENGAGED, DriveState.STOPPED}
+    assert not list(tmp_path.glob("logs/*Traceback*"))
+    assert "Traceback" not in (tmp_path / "logs" / "realtime.log").read_text()
+
+
+async def test_sr8_kill_9_loses_at_most_about_the_last_second(tmp_path: Path) -> None:
+    path = tmp_path / "session.mcap"
+    async with LiveStation(tmp_path) as station:
+        await station.ask(station.session(path))
+        await asyncio.sleep(2.5)
+        station.process.kill()
+        await station.process.wait()
+        killed_s = time.monotonic()
+    ticks = _recorded_ticks(path)
+    assert ticks
+    assert killed_s - ticks[-1].t_s < 1.7  # a flush a second, and what a busy machine adds
+
+
+async def test_sr3_a_frozen_service_holds_and_a_terminated_station_finishes_its_recording(tmp_path: Path) -> None:
+    path = tmp_path / "session.mcap"
+    async with LiveStation(tmp_path) as station:
+        await station.ask(station.session(path))
+        station.beats = False
+        silent = await station.tick(lambda tick: any("silent" in words for words in tick.blockers), 5)
+        assert not silent.may_enable
+        station.process.terminate()
+        assert await asyncio.wait_for(station.process.wait(), 10) == 0
+    with path.open("rb") as file:
+        assert file.read()[-8:] == b"\x89MCAP0\r\n"  # whole to its last byte
+
+
+async def test_a_second_station_on_the_same_data_folder_is_refused_in_words(tmp_path: Path) -> None:
+    async with LiveStation(tmp_path) as station:
+        code, words = await _run(_start(tmp_path, {PORT: 0}))
+        assert code == 2
+        assert f"process {station.process.pid}" in words
+        assert str(tmp_path) in words
+        assert "--data" in words
+
+
+async def test_a_port_in_use_is_refused_in_words_without_a_traceback(tmp_path: Path) -> None:
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as taken:
+        taken.bind(("127.0.0.1", 0))
+        port = taken.getsockname()[1]
+        code, words = await _run(_start(tmp_path, {PORT: port}))
+    assert code == 2
+    assert str(port) in words
+    assert "already in use" in words
+    assert "Traceback" not in words
+
+
+@pytest.mark.parametrize(
+    ("content", "named"),
+    [('{"data": "d"}', "channels"), ("{", "not well-formed"), ('{"data": "d", "channels": "c", "dmeo": true}', "dmeo")],
+)
+async def test_a_broken_start_file_is_named(tmp_path: Path, content: str, named: str) -> None:
+    path = tmp_path / "start.json"
+    path.write_text(content)
+    code, words = await _run(path)
+    assert code == 2
+    assert named in words
+    assert "Traceback" not in words
+
+
+async def test_sr8_a_station_whose_service_was_killed_ends_by_itself_and_keeps_the_recording(tmp_path: Path) -> None:
+    code = (
+        "import asyncio, sys; sys.path.insert(0, sys.argv[1])\n"
+        "from pathlib import Path\nfrom live_station import LiveStation\n"
+        "async def main():\n"
+        "    data = Path(sys.argv[2])\n"
+        "    async with LiveStation(data) as station:\n"
+        "        await station.ask(station.session(data / 'session.mcap'))\n"
+        "        print(station.process.pid, flush=True)\n"
+        "        await asyncio.sleep(60)\n"
+        "asyncio.run(main())\n"
+    )
+    service = await asyncio.create_subprocess_exec(
+        sys.executable, "-c", code, str(Path(__file__).parent), str(tmp_path), stdout=asyncio.subprocess.PIPE
+    )
+    assert service.stdout is not None
+    station = int(await asyncio.wait_for(service.stdout.readline(), 40))
+    service.kill()
+    await service.wait()
+    async with asyncio.timeout(20):
+        while _lives(station):
+            await asyncio.sleep(0.1)
+    path = tmp_path / "session.mcap"
+    assert path.read_bytes()[-8:] == b"\x89MCAP0\r\n"
+    ticks = _recorded_ticks(path)
+    assert ticks[-1].t_s - ticks[0].t_s > 4.0  # it waited before it ended
+
+
+def _lives(process: int) -> bool:
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    return b"Z" not in Path(f"/proc/{process}/stat").read_bytes().split(b")")[1][:3]
+
+
+def _start(data: Path, ports: dict[str, int]) -> Path:
+    start = private_folder() / "start.json"
+    config = StationConfig(sensors=SensorsConfig(ports=ports))
+    write_start(StationStart(data=str(data), channels=str(start.parent), station=config), start)
+    return start
+
+
+async def _run(start: Path) -> tuple[int | None, str]:
+    """Run a station that should refuse to start; its code and what it says."""
+    process = await asyncio.create_subprocess_exec(
+        sys.executable, "-m", "server.station", "--config", str(start), stderr=asyncio.subprocess.PIPE
+    )
+    try:
+        _, words = await asyncio.wait_for(process.communicate(), 30)
+    except TimeoutError:
+        process.send_signal(signal.SIGKILL)
+        raise
+    return process.returncode, words.decode()
