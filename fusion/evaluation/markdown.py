@@ -46,8 +46,8 @@ def _head(command: str) -> str:
         f"everything after the first {SETTLE_S:g} s included: occluded, lost and held frames too. "
         "Mounting and clock offset of every sensor are estimated. *Inside*: share of instants at which the truth is no "
         "further from the point than the reported bound. *Lost*: instants with state 0. "
-        "A sensor alone is its own latest sample, held where it sees nothing. What the columns rest on and why the rows "
-        "differ: [estimation](estimation.md)."
+        "A sensor alone is its own latest sample, held where it sees nothing. "
+        "What the columns rest on and why the rows differ: [estimation](estimation.md)."
     )
 
 
