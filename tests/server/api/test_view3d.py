@@ -125,7 +125,7 @@ def test_visers_socket_comes_through_and_the_scene_moves(shared, therapist, path
 
 def test_nobody_opens_a_public_tunnel_through_the_view(shared, therapist, monkeypatch):
     asked = []
-    monkeypatch.setattr(shared.service.view3d._server, "request_share_url", lambda *_, **__: asked.append(True))
+    monkeypatch.setattr("viser._viser.ViserTunnel", lambda *_, **__: asked.append(True))
     with viser_socket(shared, therapist) as socket:
         socket.send(msgspec.msgpack.encode({"type": "ShareUrlRequest"}))
         socket.send(msgspec.msgpack.encode(CAMERA))

@@ -1,0 +1,111 @@
+"""The open session: limits, phases, the game's clock, and the demonstration's goal."""
+
+from datetime import UTC, datetime
+from importlib.util import module_from_spec, spec_from_file_location
+from pathlib import Path
+
+import msgspec
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from db.patient import JointRange, PassiveRange
+from fusion.errors import RefusedError
+from fusion.skeleton import Side
+from server.api.course import Course, Plan, goal
+from server.api.limits import session_limits
+from server.config import StationConfig
+from server.messages import DriveState
+
+DEVICE = StationConfig().device
+angles = st.floats(-3.1, 3.1)
+
+
+def _stand_in():
+    spec = spec_from_file_location("stand_in_station", Path(__file__).with_name("stand_in_station.py"))
+    module = module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+TICK = _stand_in().tick(0, 10.0, DriveState.READY, "1", Side.RIGHT)
+
+
+def tick(t_s, state):
+    return msgspec.structs.replace(TICK, t_s=t_s, state=state)
+
+
+@pytest.fixture
+def course():
+    return Course(
+        Plan(
+            id=1,
+            patient="Wang",
+            affected_side=Side.LEFT,
+            game="reach",
+            seed=3,
+            level=0.3,
+            limits=session_limits(PassiveRange(), DEVICE),
+            soft_margin_rad=0.1,
+            started=datetime(2026, 3, 1, tzinfo=UTC),
+            t_started_s=10.0,
+        )
+    )
+
+
+@given(angles, angles)
+def test_limits_are_inside_both_ranges_or_refused(one, other):
+    low, high = sorted((one, other))
+    if low == high:
+        return
+    passive = PassiveRange(elbow=JointRange(min_rad=low, max_rad=high))
+    device = DEVICE[-1]
+    if max(low, device.min_rad) >= min(high, device.max_rad):
+        with pytest.raises(RefusedError, match="elbow"):
+            session_limits(passive, DEVICE)
+        return
+    elbow = session_limits(passive, DEVICE)[-1]
+    assert (elbow.min_rad, elbow.max_rad) == (max(low, device.min_rad), min(high, device.max_rad))
+    assert elbow.velocity_rad_s == device.velocity_rad_s
+
+
+@pytest.mark.parametrize(
+    ("state", "phase"),
+    [
+        (DriveState.OFF, "preparing"),
+        (DriveState.READY, "preparing"),
+        (DriveState.ENGAGED, "running"),
+        (DriveState.HOLD, "held"),
+        (DriveState.FAULT, "stopped"),
+        (DriveState.STOPPED, "stopped"),
+    ],
+)
+def test_every_state_of_the_arm_has_a_phase(course, state, phase):
+    course.step(tick(11.0, state))
+    assert course.view().phase == phase
+    assert course.view().elapsed_s == pytest.approx(1.0)
+
+
+def test_there_is_no_game_before_the_arm_was_first_engaged(course):
+    assert course.step(tick(10.1, DriveState.READY)) is None
+    assert course.step(tick(10.2, DriveState.ENGAGED)).game == "reach"
+
+
+def test_the_games_clock_stands_still_while_the_arm_is_held(course):
+    before = course.step(tick(10.1, DriveState.ENGAGED))
+    for k in range(20):
+        held = course.step(tick(10.2 + k / 10, DriveState.HOLD))
+    assert held.time_left_s == before.time_left_s
+    assert course.step(tick(12.2, DriveState.ENGAGED)).time_left_s < before.time_left_s
+
+
+def test_the_goal_is_the_targets_mirror_image_and_rest_otherwise(course):
+    course.step(tick(10.1, DriveState.ENGAGED))
+    for k in range(20):
+        engaged = tick(10.2 + k / 50, DriveState.ENGAGED)
+        picture = course.step(engaged)
+    target = picture.targets[0].position
+    assert goal(course, engaged).hand_in_trunk == (-target[0], target[1], target[2])
+    assert goal(course, engaged).healthy_side is Side.RIGHT
+    assert goal(course, tick(11.0, DriveState.HOLD)).hand_in_trunk is None
+    assert goal(None, engaged).hand_in_trunk is None
