@@ -9,7 +9,7 @@ import numpy as np
 from fusion.align.alignment import SensorAlignment
 from fusion.align.plausible import Fault, handedness_fault
 from fusion.align.space import Moments, Mounting, RobustFit, fit_robustly
-from fusion.align.space_time import CORRELATION_STD_S, alignment_of, fit_space_time, offset_step, refine
+from fusion.align.space_time import CORRELATION_STD_S, alignment_of, clear_offset, fit_space_time, offset_step, refine
 from fusion.align.track import BodyTrack, Pairs, pair
 
 WINDOW_S = 10.0
@@ -27,7 +27,7 @@ LONGEST_OFFSET_S = 0.5
 LEARNING_FRAMES = 60
 """Reference frames looked at in one go: what a tick can afford."""
 FEWEST_FRAMES = 30
-LARGEST_ROTATION_STD_RAD = np.radians(4.0)
+LARGEST_ROTATION_STD_RAD = np.radians(5.0)
 LARGEST_POSITION_STD_M = 0.03
 LARGEST_RESIDUAL_M = 0.12
 MOVED_FACTOR, MOVED_LEAST_M, MOVED_AFTER_S = 3.0, 0.15, 1.5
@@ -57,7 +57,8 @@ class AlignmentLearner:
         self._settled: _Settled | None = None
         self._not_before_s = self._looked_s = -np.inf
         self._first_s: float | None = None
-        self._first_offset_s = 0.0
+        self._speeds_offset_s = 0.0
+        """What the speeds say of the offset; none, as long as nobody has moved enough for them to say it."""
 
     def learn(self, reference: BodyTrack, sensor: BodyTrack) -> None:
         """Take the last `WINDOW_S` of both tracks; call it about every `EVERY_S`."""
@@ -81,13 +82,14 @@ class AlignmentLearner:
         self.fault = handedness_fault(pairs)
         if self.fault is None and trusted(found):
             self.alignment, self.moved = found, False
-            self._first_s, self._first_offset_s = float(reference.t_s[0]), found.clock_offset_s
+            self._first_s = float(reference.t_s[0])
 
     def _deepen(self, reference: BodyTrack, sensor: BodyTrack, now: SensorAlignment) -> None:
         """While the first frames are still in the window, weigh all of them anew; settle them when it is full."""
-        better = refine(
-            reference, sensor, now.clock_offset_s, 2, LEARNING_FRAMES, _mounting(now), prior_s=self._first_offset_s
-        )
+        clear_s = clear_offset(reference, sensor, LONGEST_OFFSET_S)
+        self._speeds_offset_s = self._speeds_offset_s if clear_s is None else clear_s
+        prior_s = self._speeds_offset_s
+        better = refine(reference, sensor, now.clock_offset_s, 2, LEARNING_FRAMES, _mounting(now), prior_s)
         if better is not None and trusted(better):
             self.alignment = better
         if reference.t_s[-1] - (self._first_s or reference.t_s[0]) > WINDOW_S - SETTLE_EVERY_S:

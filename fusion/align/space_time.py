@@ -93,6 +93,12 @@ def fit_space_time(
     return refine(reference, sensor, best.offset_s, rounds, most)
 
 
+def clear_offset(reference: BodyTrack, sensor: BodyTrack, longest_s: float) -> float | None:
+    """The offset on which the joints' speeds agree clearly; None while nobody has moved enough."""
+    best = next(iter(offset_candidates(reference, sensor, longest_s, 1)), None)
+    return best.offset_s if best is not None and best.correlation >= LEAST_CORRELATION else None
+
+
 def _unlikeness(found: SensorAlignment | None, start: OffsetCandidate) -> float:
     """How badly joints and speeds agree; fewer common frames make a small residual less telling."""
     return np.inf if found is None else found.residual_m / (start.correlation * float(np.sqrt(found.frames)))
