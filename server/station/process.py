@@ -32,6 +32,7 @@ log = logging.getLogger(__name__)
 ORPHAN_S = 5.0
 """A station whose service has gone holds at once (its heartbeat is silent) and ends after this time."""
 LEAVE_WITHIN_S = 2.0
+LOOK_EVERY_S = 2.0
 LOG_BYTES, LOG_FILES = 1_000_000, 3
 
 
@@ -56,7 +57,8 @@ def run(start: StationStart) -> None:
         loop = Loop(config, source, perception, drive, channels, demonstration)
         vigil = Vigil()
         if start.demo:
-            vigil.sensors = stack.enter_context(demonstration_sensors(start, source))
+            vigil.sensors = DemonstrationSensors(start, source.ports)
+            stack.callback(vigil.sensors.close)
         pacemaker.settle()
         loop.announce(time.monotonic())
         pacemaker.keep_time(loop.step, loop.count_overruns, config.rate_hz, vigil.goes_on)
@@ -70,7 +72,7 @@ class Vigil:
         self._parent = os.getppid()
         self._gone_s: float | None = None
         self._told_to_end = False
-        self.sensors: subprocess.Popen[bytes] | None = None
+        self.sensors: DemonstrationSensors | None = None
         for number in (signal.SIGTERM, signal.SIGINT):
             signal.signal(number, self._end)
 
@@ -78,6 +80,8 @@ class Vigil:
         """Asked before each tick."""
         if self._told_to_end:
             return False
+        if self.sensors is not None:
+            self.sensors.look_after()
         if os.getppid() == self._parent:
             return True
         if self._gone_s is None:
@@ -153,15 +157,36 @@ def logging_to(path: Path) -> Iterator[None]:
         file.close()
 
 
-@contextmanager
-def demonstration_sensors(start: StationStart, source: UdpSource) -> Iterator[subprocess.Popen[bytes]]:
-    """The demonstration's sensors in a process of their own; they end with this one."""
-    port = source.ports.get("kinectv2-osc") or next(iter(source.ports.values()))
-    command = [sys.executable, "-m", "server.station.sources.virtual", "--channels", start.channels]
-    options = ["--host", start.station.sensors.bind, "--port", str(port), "--parent", str(os.getpid())]
-    process = subprocess.Popen([*command, *options], stdin=subprocess.DEVNULL)  # noqa: S603 - our own module
-    try:
-        yield process
-    finally:
-        process.terminate()
-        process.wait(timeout=2.0)
+class DemonstrationSensors:
+    """The demonstration's sensors, in a process of their own that is started again if it dies.
+
+    Args:
+        start: of the station.
+        ports: where it listens.
+    """
+
+    def __init__(self, start: StationStart, ports: dict[str, int]) -> None:
+        port = ports.get("kinectv2-osc") or next(iter(ports.values()))
+        module = [sys.executable, "-m", "server.station.sources.virtual", "--channels", start.channels]
+        options = ["--host", start.station.sensors.bind, "--port", str(port), "--parent", str(os.getpid())]
+        self._command = [*module, *options]
+        self._process = self._spawn()
+        self._looked_s = time.monotonic()
+
+    def look_after(self) -> None:
+        """Start them again if they died; looks every two seconds."""
+        now_s = time.monotonic()
+        if now_s - self._looked_s < LOOK_EVERY_S:
+            return
+        self._looked_s = now_s
+        if self._process.poll() is not None:
+            log.error("the demonstration's sensors ended with code %s and are started again", self._process.returncode)
+            self._process = self._spawn()
+
+    def close(self) -> None:
+        """End them."""
+        self._process.terminate()
+        self._process.wait(timeout=2.0)
+
+    def _spawn(self) -> subprocess.Popen[bytes]:
+        return subprocess.Popen(self._command, stdin=subprocess.DEVNULL)  # noqa: S603 - our own module

@@ -13,6 +13,7 @@ from pathlib import Path
 
 import msgspec
 import numpy as np
+import psutil
 import pytest
 from live_station import PORT, LiveStation
 from mcap.exceptions import McapError
@@ -67,6 +68,15 @@ async def test_a_whole_session_with_the_virtual_patient(tmp_path: Path) -> None:
     assert {tick.state for tick in ticks} >= {DriveState.READY, DriveState.ENGAGED, DriveState.STOPPED}
     assert not list(tmp_path.glob("logs/*Traceback*"))
     assert "Traceback" not in (tmp_path / "logs" / "realtime.log").read_text()
+
+
+async def test_the_demonstrations_sensors_are_started_again_when_they_die(tmp_path: Path) -> None:
+    async with LiveStation(tmp_path, demo=True) as station:
+        (sensors,) = psutil.Process(station.process.pid).children()
+        sensors.kill()
+        seen = await station.tick(lambda tick: len(tick.sensors) == 2, 20)
+        assert {sensor.sensor for sensor in seen.sensors} == {"127.0.1.1", "127.0.1.2"}
+        assert "started again" in (tmp_path / "logs" / "realtime.log").read_text()
 
 
 async def test_sr8_kill_9_loses_at_most_about_the_last_second(tmp_path: Path) -> None:
