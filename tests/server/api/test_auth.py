@@ -3,15 +3,18 @@
 import contextlib
 import sqlite3
 import threading
-import time
+from datetime import timedelta
 from pathlib import Path
 
 import pytest
 from fastapi.routing import iter_route_contexts
+from sqlmodel import select
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 
+from db.account import LoginSession
 from db.database import open_database
+from db.queries import accounts
 from fusion.errors import RefusedError
 from server.api import socket_gate
 from server.api.app import create_app
@@ -170,20 +173,29 @@ def auth_with(database, **settings):
     return Auth(database, AuthSettings(argon2_time_cost=1, argon2_memory_kib=64, **settings))
 
 
+def let_pass(database, seconds):
+    """Time goes by: what was written a moment ago becomes as old as that."""
+    with database.session() as session:
+        for login in session.exec(select(LoginSession)):
+            login.last_used_at -= timedelta(seconds=seconds)
+            login.expires_at -= timedelta(seconds=seconds)
+
+
 def test_a_log_in_that_is_not_used_runs_out(database):
-    auth = auth_with(database, idle_s=0.05)
+    auth = auth_with(database, idle_s=1800.0)
     _, token = auth.set_up(NAME, PASSWORD, "here")
-    assert auth.account_or_none(token) is not None
-    time.sleep(0.06)
+    let_pass(database, 1790)
+    assert auth.account_or_none(token, is_use=False) is not None
+    let_pass(database, 20)
     assert auth.account_or_none(token) is None
 
 
 def test_use_prolongs_a_log_in_but_looking_does_not(database):
-    auth = auth_with(database, idle_s=0.4, touch_every_s=0.0)
+    auth = auth_with(database, idle_s=1800.0)
     _, used = auth.set_up(NAME, PASSWORD, "here")
     looked_at = auth.open_login(auth.log_in(NAME, PASSWORD, "here")[0])
-    for _ in range(6):
-        time.sleep(0.1)
+    for _ in range(2):
+        let_pass(database, 1000)
         auth.account_or_none(used)
         auth.account_or_none(looked_at, is_use=False)
     assert auth.account_or_none(used) is not None
@@ -191,11 +203,12 @@ def test_use_prolongs_a_log_in_but_looking_does_not(database):
 
 
 def test_use_does_not_prolong_a_log_in_for_ever(database):
-    auth = auth_with(database, absolute_s=0.1, touch_every_s=0.0)
+    auth = auth_with(database, idle_s=1800.0, absolute_s=3600.0)
     _, token = auth.set_up(NAME, PASSWORD, "here")
-    for _ in range(12):
-        auth.account_or_none(token)
-        time.sleep(0.01)
+    for _ in range(3):
+        let_pass(database, 1000)
+        assert auth.account_or_none(token) is not None
+    let_pass(database, 1000)
     assert auth.account_or_none(token) is None
 
 
@@ -215,8 +228,6 @@ def test_of_many_first_accounts_at_once_one_is_made(database):
 
 
 def test_an_account_without_password_cannot_be_logged_in_to(database):
-    from db.queries import accounts
-
     auth = auth_with(database)
     with database.session() as session:
         accounts.add_account(session, "demo", None)
