@@ -19,13 +19,20 @@ from server.api.therapy import Therapy
 log = logging.getLogger(__name__)
 
 
-async def recover(database: Database, data: Path, therapy: Therapy) -> None:
-    """Close and measure whatever the last run left behind. Never fails; what cannot be done is logged and stays."""
+async def close_left_open(database: Database, data: Path) -> list[int]:
+    """Close what the last run left open, before anybody can open a new session; the numbers of those to measure.
+
+    Never fails: what cannot be closed now is logged, and stays for the next start.
+    """
     try:
-        left = await run_in_threadpool(_close_left_open, database, data)
+        return await run_in_threadpool(_close_left_open, database, data)
     except DatabaseError as error:
         log.error("unfinished sessions could not be closed: %s", error)
-        return
+        return []
+
+
+async def measure_all(therapy: Therapy, left: list[int]) -> None:
+    """Measure what the last run could not; long recordings take their time, so this runs beside everything else."""
     for session_id in left:
         await therapy.measure(session_id)
 

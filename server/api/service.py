@@ -16,7 +16,7 @@ from server.api.forms import Station
 from server.api.journal import Journal
 from server.api.latency import LatencyMeter
 from server.api.limits import snapshots
-from server.api.recover import recover
+from server.api.recover import close_left_open, measure_all
 from server.api.relay import Relay
 from server.api.station_link import StationLink
 from server.api.therapy import Therapy
@@ -70,8 +70,9 @@ async def running_service(
         link.on_tick.append(relay.take)
         stack.push_async_callback(link.close)
         await until_station_is_gone(data)
+        left = await close_left_open(database, data)
         await link.open()
-        recovery = asyncio.create_task(recover(database, data, therapy), name="recover")
+        recovery = asyncio.create_task(measure_all(therapy, left), name="recovery")
         stack.callback(recovery.cancel)
         demo = Demo(database, auth, config.demo and config.station.drive == SIMULATED)
         yield Service(config, database, auth, demo, link, therapy, latency, relay, view3d)
