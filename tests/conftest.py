@@ -89,3 +89,4 @@ def start_service(tmp_path: Path) -> Iterator[Callable[..., RunningService]]:
         process.terminate()
     for process in started:
         process.wait(timeout=20)
+        process.stdout.close()

@@ -1,0 +1,112 @@
+"""The newcomer's first minute, by real clicks against the real service and station process."""
+
+from __future__ import annotations
+
+import io
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+from playwright.sync_api import Locator, Page, expect
+
+pytestmark = pytest.mark.browser
+
+ALIGNED_MS = 45_000
+PLAYED_MS = 60_000
+"""Generous: a busy machine must not fail a test that is about what is shown."""
+
+
+def pixels(shown: Page | Locator, file: Path) -> np.ndarray:
+    """A screenshot as (height, width, 3), kept as a file to be looked at."""
+    picture = shown.screenshot(path=file)
+    return np.asarray(Image.open(io.BytesIO(picture)).convert("RGB"), float)
+
+
+def share_changed(before: np.ndarray, after: np.ndarray) -> float:
+    """Share of pixels that differ visibly."""
+    return float((np.abs(after - before).max(axis=2) > 24).mean())
+
+
+def open_demonstration(page: Page, address: str, shots: Path) -> None:
+    page.goto(address)
+    expect(page.get_by_test_id("login-demo")).to_be_visible()
+    page.screenshot(path=shots / "1-welcome.png")
+    page.get_by_test_id("login-demo").click()
+    page.get_by_test_id("open-session").first.click()
+    page.get_by_test_id("confirm-side-left").click()
+    page.get_by_test_id("pain-2").click()
+    page.screenshot(path=shots / "2-open-session.png")
+    page.get_by_test_id("begin-session").click()
+
+
+def start_moving(page: Page) -> None:
+    expect(page.get_by_test_id("sensor-row")).to_have_count(2, timeout=ALIGNED_MS)
+    expect(page.get_by_test_id("start")).to_be_enabled(timeout=ALIGNED_MS)
+    page.get_by_test_id("start").click()
+    expect(page.get_by_test_id("state")).to_have_attribute("data-state", "engaged")
+
+
+def check_the_view_moves(page: Page, shots: Path) -> None:
+    view = page.get_by_test_id("view3d")
+    page.frame_locator("[data-testid=view3d]").locator("canvas").first.wait_for()
+    page.wait_for_timeout(1500)
+    before = pixels(view, shots / "3-view-before.png")
+    page.wait_for_timeout(2500)
+    after = pixels(view, shots / "4-view-after.png")
+    assert before.std() > 5, "the 3-D view is blank"
+    assert share_changed(before, after) > 0.001, "the skeleton in the 3-D view does not move"
+
+
+def check_the_game_is_played(play: Page, shots: Path) -> None:
+    play.locator("[data-drawn]").wait_for(state="attached")
+    # The newcomer's minute: the first fruit is collected and the score rises.
+    play.wait_for_function("Number(document.querySelector('[data-score]').dataset.score) > 0", timeout=PLAYED_MS)
+    canvas = play.locator("canvas").first
+    before = pixels(canvas, shots / "5-play-before.png")
+    hand = play.locator("[data-hand]").get_attribute("data-hand")
+    drawn = int(play.locator("[data-drawn]").get_attribute("data-drawn") or 0)
+    play.wait_for_timeout(2000)
+    after = pixels(canvas, shots / "6-play-after.png")
+    assert before.std() > 5, "the game's canvas is blank"
+    assert share_changed(before, after) > 0.005, "the game's picture stands still"
+    assert play.locator("[data-hand]").get_attribute("data-hand") != hand, "the arm does not move"
+    assert int(play.locator("[data-drawn]").get_attribute("data-drawn") or 0) > drawn
+
+
+def hold_and_resume(page: Page) -> None:
+    page.get_by_test_id("hold").click()
+    expect(page.get_by_test_id("state")).to_have_attribute("data-state", "hold")
+    page.get_by_test_id("resume").click()
+    expect(page.get_by_test_id("state")).to_have_attribute("data-state", "engaged")
+
+
+def test_a_newcomer_watches_plays_stops_and_finds_the_figures_again(start_service, page: Page, shots: Path) -> None:
+    service = start_service("--demo")
+    open_demonstration(page, service.address, shots)
+    start_moving(page)
+    check_the_view_moves(page, shots)
+
+    with page.context.expect_page() as popup:
+        page.get_by_test_id("open-play").click()
+    play = popup.value
+    play.set_viewport_size({"width": 1280, "height": 720})
+    check_the_game_is_played(play, shots)
+    expect(page.get_by_test_id("score")).to_have_text(re.compile(r"[1-9]"))
+    page.screenshot(path=shots / "7-live.png")
+    hold_and_resume(page)
+
+    page.keyboard.press("Escape")
+    expect(page.get_by_test_id("state")).to_have_attribute("data-state", "stopped")
+    page.get_by_test_id("end-session").click()
+    page.get_by_test_id("pain-1").click()
+    page.get_by_test_id("confirm-end").click()
+    expect(page.get_by_test_id("metric-row").first).to_be_visible(timeout=20_000)
+    figures = page.get_by_test_id("metric-row").all_inner_texts()
+    page.screenshot(path=shots / "8-summary.png", full_page=True)
+    assert pixels(page.get_by_test_id("curves"), shots / "9-curves.png").std() > 5, "the curves are blank"
+
+    page.reload()
+    expect(page.get_by_test_id("metric-row").first).to_be_visible()
+    assert page.get_by_test_id("metric-row").all_inner_texts() == figures
