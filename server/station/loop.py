@@ -146,9 +146,9 @@ class Loop:
 
     def _decide(self, reading: DriveReading, now_s: float) -> DriveCommand:
         open_session = self._desk.session
-        middle = sum((self._config.device[0].min_rad, self._config.device[0].max_rad)) / 2
         newest_s = self._frame.newest_received_s
-        seen = joint_target(self._frame.target, self._state.motions[0].angle_rad, middle)
+        commanded = tuple(motion.angle_rad for motion in self._state.motions)
+        seen = joint_target(self._frame.target, commanded)
         self._calm, target = calmed(self._calm, seen, 1.0 / self._config.rate_hz)
         inputs = SafetyInputs(
             reading=reading,

@@ -32,22 +32,22 @@ class JointTarget:
     """0..1 of each joint's speed; below 1 for the plane inside the cone."""
 
 
-def joint_target(target: MirrorTarget | None, plane_now_rad: float, plane_middle_rad: float) -> JointTarget | None:
+def joint_target(target: MirrorTarget | None, commanded_rad: Joints) -> JointTarget | None:
     """A mirror target in joints; None where there is none to follow.
 
     Args:
         target: the mirrored arm.
-        plane_now_rad: the plane that is commanded now, kept inside the cone.
-        plane_middle_rad: middle of the plane's range; the plane is unwrapped around it.
+        commanded_rad: what is commanded now. The plane keeps it inside the cone; plane and rotation are unwrapped
+            around it, so that a target beyond the range that passes ±π does not send the joint to the other end.
     """
     if target is None or not target.valid or not _is_number(target):
         return None
     plane, elevation = swing_from_direction(target.direction_in_limb)
     freedom = cone_freedom(elevation)
     angles = (
-        _unwrapped(plane, plane_middle_rad) if freedom else plane_now_rad,
+        _unwrapped(plane, commanded_rad[0]) if freedom else commanded_rad[0],
         elevation,
-        target.twist_rad,
+        _unwrapped(target.twist_rad, commanded_rad[2]),
         target.elbow_rad,
     )
     bounds = (target.swing_bound_rad, target.swing_bound_rad, target.twist_bound_rad, target.elbow_bound_rad)
