@@ -108,8 +108,7 @@ def fuse_recording(
     aligned = perf_counter()
     side = recording.healthy_side or Side.RIGHT
     pipeline = Pipeline(PipelineSettings(side, method, chosen, known.alignments if known else None))
-    used = [stream for name, stream in streams.items() if only_sensor in (None, name)]
-    used = [stream for stream in used if known is None or stream.sensor not in known.faults]
+    used = _usable(recording, [stream for name, stream in streams.items() if only_sensor in (None, name)], known)
     first = next((stream for stream in used if stream.sensor == chosen), used[0])
     pipeline.follow(first.sensor, _nearest_at_start(first))
     grid = _grid(streams[chosen])
@@ -131,6 +130,18 @@ def fuse_recording(
         _reports(pipeline, streams, known, chosen, float(grid[-1])),
         timings,
     )
+
+
+def _usable(recording: Recording, streams: list[SkeletonStream], known: Aligned | None) -> list[SkeletonStream]:
+    """The streams without a fault."""
+    faults = known.faults if known else {}
+    usable = [stream for stream in streams if stream.sensor not in faults]
+    if not usable:
+        why = "; ".join(sentence for stream in streams for sentence in faults[stream.sensor])
+        raise RecordingError(
+            f"recording '{recording.name}': no sensor can be used ({why})", "a sensor that shows a person as they are"
+        )
+    return usable
 
 
 def _streams(recording: Recording) -> dict[str, SkeletonStream]:

@@ -113,3 +113,15 @@ def test_progress_ends_at_one(recording):
     fuse_recording(recording, "average", progress=told.append)
     assert told == sorted(told)
     assert told[-1] == 1.0
+
+
+def test_when_every_sensor_is_in_millimetres_the_reason_is_named(recording):
+    streams = tuple(
+        replace(
+            stream,
+            samples=tuple(replace(one, positions_in_sensor=one.positions_in_sensor * 1000) for one in stream.samples),
+        )
+        for stream in recording.skeleton_streams
+    )
+    with pytest.raises(RecordingError, match="no sensor can be used"):
+        fuse_recording(replace(recording, skeleton_streams=streams), "kalman")
