@@ -253,7 +253,7 @@ export const en = {
   "metric.active_minutes": "Active minutes",
   "metric.active_minutes.means": "Time in which the healthy hand really moved.",
   "metric.movements": "Movements",
-  "metric.movements.means": "Movements of the healthy hand from rest to rest.",
+  "metric.movements.means": "Movements of the healthy hand, from the start of a reach to its end.",
   "metric.targets_collected": "Targets collected",
   "metric.targets_missed": "Targets missed",
   "metric.success_rate": "Success",

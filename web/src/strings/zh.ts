@@ -246,7 +246,7 @@ export const zh: Record<Key, string> = {
   "metric.active_minutes": "活动分钟",
   "metric.active_minutes.means": "健侧手真正在动的时间。",
   "metric.movements": "动作次数",
-  "metric.movements.means": "健侧手从静止到静止的动作。",
+  "metric.movements.means": "健侧手每次从起手到到位的动作。",
   "metric.targets_collected": "收集的目标",
   "metric.targets_missed": "错过的目标",
   "metric.success_rate": "成功率",
