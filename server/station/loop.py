@@ -7,7 +7,6 @@ from collections.abc import Callable
 from math import isnan
 
 from fusion.messages import Floats, Packet, PipelineFrame
-from fusion.skeleton import Side
 from server.channels import StationChannels, encoded
 from server.config import StationConfig
 from server.messages import (
@@ -176,7 +175,7 @@ class Loop:
         frame, gate, facts = heard.frame, self._state.gate, self._state.facts
         self._build = self._build.learnt(frame, BUILD_SHARE)
         open_session = self._desk.session
-        side = open_session.healthy_side if open_session else Side.LEFT
+        side = self._perception.healthy_side
         samples = {sample.sensor: sample for sample in frame.samples}
         self._index += 1
         return LiveTick(

@@ -36,7 +36,7 @@ class Perception:
 
     def __init__(self, settings: PipelineSettings) -> None:
         self._settings = settings
-        self._healthy_side = settings.healthy_side
+        self.healthy_side = settings.healthy_side
         self._pipeline = Pipeline(settings)
         self._last_sample_s: float | None = None
         self.decoder = Decoder()
@@ -45,7 +45,7 @@ class Perception:
 
     def treat(self, healthy_side: Side) -> None:
         """A session begins: this arm is the healthy one."""
-        self._healthy_side = healthy_side
+        self.healthy_side = healthy_side
         self._pipeline.treat(healthy_side)
 
     def follow(self, sensor: str, body: str) -> None:
@@ -55,7 +55,7 @@ class Perception:
     def begin_anew(self) -> None:
         """Forget sensors and body: other sensors send now."""
         self._pipeline = Pipeline(self._settings)
-        self._pipeline.treat(self._healthy_side)
+        self._pipeline.treat(self.healthy_side)
 
     def step(self, packets: list[Packet], now_s: float) -> Heard:
         """Take the tick's packets and say what can be said now."""

@@ -49,7 +49,9 @@ def run(start: StationStart) -> None:
         log.info("real-time priority %s", "granted" if pacemaker.ask_for_priority() else "not granted")
         config = start.station
         source = stack.enter_context(UdpSource(config.sensors))
-        perception = Perception(PipelineSettings(Side.LEFT, config.method, config.reference))
+        # Until a session says whose arm is healthy; the demonstration's patient has a healthy right one.
+        side = Side.RIGHT if start.demo else Side.LEFT
+        perception = Perception(PipelineSettings(side, config.method, config.reference))
         drive = stack.enter_context(make_drive(config))
         channels = StationChannels(Path(start.channels))
         stack.callback(channels.close)

@@ -50,12 +50,18 @@ class VirtualStage:
         self._under_way: list[tuple[float, int, SkeletonSample]] = []
         self._sequence = 0
         self._goal = DemoGoal(hand_in_trunk=None)
-        self._cast(Side.RIGHT)
+        self._patient = VirtualPatient(Side.RIGHT, SEED)
+        self._cameras = (
+            VirtualSensor("virtual-1", SensorPose.around(0.0), SEED),
+            VirtualSensor("virtual-2", SensorPose.around(APART_RAD, 1.9, 0.9, 0.02), SEED + 1, body="2"),
+        )
 
     def take(self, goal: DemoGoal) -> None:
-        """Where the patient should reach now; another healthy side is another patient."""
+        """Where the patient should reach now; another healthy side is another patient before the same cameras."""
         if goal.healthy_side is not self._patient.healthy_side:
-            self._cast(goal.healthy_side)
+            t_s = self._patient.t_s
+            self._patient = VirtualPatient(goal.healthy_side, SEED)
+            self._patient.t_s = t_s
         self._goal = goal
 
     def step(self, dt_s: float, speaking: bool) -> None:
@@ -78,14 +84,6 @@ class VirtualStage:
         """Close the sockets."""
         for opened in self._sockets:
             opened.close()
-
-    def _cast(self, healthy_side: Side) -> None:
-        sign = 1.0 if healthy_side is Side.RIGHT else -1.0
-        self._patient = VirtualPatient(healthy_side, SEED)
-        self._cameras = (
-            VirtualSensor("virtual-1", SensorPose.around(0.0), SEED),
-            VirtualSensor("virtual-2", SensorPose.around(sign * APART_RAD, 1.9, 0.9, 0.02), SEED + 1, body="2"),
-        )
 
     def _send(self, camera: int, sample: SkeletonSample) -> None:
         self._sequence += 1

@@ -6,6 +6,7 @@ A real recording is sent over UDP in real time to the real process; a session is
 from __future__ import annotations
 
 import asyncio
+import shutil
 import sys
 import time
 from collections import Counter
@@ -60,6 +61,7 @@ async def measure(recording: Path, seconds: float) -> None:
         await station.ask(lambda number: CloseSession(number=number))
         await asyncio.sleep(0.5)
     report(path, seconds)
+    shutil.rmtree(data)
 
 
 def report(path: Path, seconds: float) -> None:

@@ -21,7 +21,6 @@ from mcap.reader import NonSeekingReader
 
 from fusion.recording.log import TICKS
 from fusion.recording.reader import read_recording
-from server.channels import private_folder
 from server.config import SensorsConfig, StationConfig, StationStart, write_start
 from server.messages import CloseSession, DriveState, Enable, LiveTick, SessionClosed, Stop
 
@@ -175,7 +174,7 @@ def _lives(process: int) -> bool:
 
 
 def _start(data: Path, ports: dict[str, int]) -> Path:
-    start = private_folder() / "start.json"
+    start = data / "start.json"  # it is refused before it opens a channel
     config = StationConfig(sensors=SensorsConfig(ports=ports))
     write_start(StationStart(data=str(data), channels=str(start.parent), station=config), start)
     return start
