@@ -115,6 +115,17 @@ class Follow(_Form):
     )
 
 
+class View3DShown(_Form):
+    """What the 3-D view shows besides the body and the exoskeleton."""
+
+    sensors: bool
+    """Every sensor's own skeleton, faintly."""
+    bounds: bool
+    """The set that holds each joint."""
+
+    model_config = ConfigDict(extra="forbid", json_schema_extra={"examples": [{"sensors": True, "bounds": False}]})
+
+
 class Answer(BaseModel):
     """What the station made of an accepted wish."""
 

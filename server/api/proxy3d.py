@@ -18,7 +18,12 @@ from server.api.socket_gate import admit, watch_log_in
 
 router = APIRouter(include_in_schema=False)
 
-_PASSED_ON = ("content-type", "content-encoding", "etag", "cache-control")
+_PASSED_ON = ("content-type", "cache-control")
+
+# viser's own panel and notices would cover much of a small view; the dashboard has switches of its own.
+_QUIET = b"""<style>
+.mantine-Notifications-root, .mantine-Paper-root[style*="position: absolute"] { display: none !important; }
+</style></head>"""
 
 
 @router.get(VIEW3D)
@@ -29,17 +34,14 @@ async def without_slash(_: AccountDep) -> RedirectResponse:
 
 @router.get(VIEW3D + "/{path:path}")
 async def page(path: str, _: AccountDep, service: ServiceDep) -> Response:
-    """Viser's own page."""
+    """Viser's own page, without its panel."""
     async with httpx.AsyncClient(base_url=f"http://127.0.0.1:{service.view3d.port}", trust_env=False) as client:
         try:
-            request = client.build_request("GET", f"/{path}", headers={"accept-encoding": "gzip"})
-            answer = await client.send(request, stream=True)
-            content = b"".join([part async for part in answer.aiter_raw()])
-            await answer.aclose()
+            answer = await client.get(f"/{path}")
         except httpx.HTTPError as error:
             raise HTTPException(502, "the 3-D view does not answer") from error
     headers = {name: answer.headers[name] for name in _PASSED_ON if name in answer.headers}
-    return Response(content, answer.status_code, headers)
+    return Response(answer.content.replace(b"</head>", _QUIET, 1), answer.status_code, headers)
 
 
 # viser's page opens its socket at the prefix itself, without a slash.

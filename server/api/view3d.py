@@ -31,6 +31,8 @@ class View3D:
         self._server: viser.ViserServer | None = None
         self.port = 0
         """Port on the loopback address."""
+        self.shown = Shown(sensors=True, bounds=False)
+        """What a person has switched on."""
 
     def start(self) -> None:
         """Open the server and begin to draw."""
@@ -38,7 +40,8 @@ class View3D:
         with redirect_stdout(StringIO()):  # it prints its own address, which nobody may use
             self._server = _OnlyHere(host="127.0.0.1", port=0, label="mirrorlimb", verbose=False)
         self.port = self._server.get_port()
-        self._task = asyncio.create_task(self._draw(self._server, _Panel(self._server), Scene(self._server)))
+        _place_camera(self._server)
+        self._task = asyncio.create_task(self._draw(self._server, Scene(self._server)))
 
     async def close(self) -> None:
         """Stop drawing and close the server."""
@@ -49,12 +52,12 @@ class View3D:
             with redirect_stdout(StringIO()):
                 await asyncio.to_thread(self._server.stop)
 
-    async def _draw(self, server: viser.ViserServer, panel: _Panel, scene: Scene) -> None:
+    async def _draw(self, server: viser.ViserServer, scene: Scene) -> None:
         with self._ticks.reading() as box:
             while True:
                 tick = await box.take()
                 if server.get_clients():
-                    _show(server, scene, tick, panel.shown())
+                    _show(server, scene, tick, self.shown)
                 await asyncio.sleep(PERIOD_S)
 
 
@@ -63,19 +66,6 @@ class _OnlyHere(viser.ViserServer):
 
     def request_share_url(self, verbose: bool = True) -> str | None:
         return None
-
-
-class _Panel:
-    """What a person may switch on and off, in viser's own panel."""
-
-    def __init__(self, server: viser.ViserServer) -> None:
-        server.gui.configure_theme(show_logo=False, show_share_button=False)
-        self._sensors = server.gui.add_checkbox("Sensors · 传感器", initial_value=True)
-        self._bounds = server.gui.add_checkbox("Bounds · 误差界", initial_value=False)
-        _place_camera(server)
-
-    def shown(self) -> Shown:
-        return Shown(sensors=self._sensors.value, bounds=self._bounds.value)
 
 
 def _show(server: viser.ViserServer, scene: Scene, tick: LiveTick, shown: Shown) -> None:

@@ -7,8 +7,9 @@ from fastapi import APIRouter
 from games.catalogue import GAMES
 from server.api.deps import AccountDep, ServiceDep
 from server.api.errors import answers
-from server.api.forms import GamePublic, Station
+from server.api.forms import GamePublic, Station, View3DShown
 from server.api.service import describe_station
+from server.api.view3d_scene import Shown
 
 router = APIRouter(tags=["station"])
 
@@ -17,6 +18,13 @@ router = APIRouter(tags=["station"])
 async def read_station(_: AccountDep, service: ServiceDep) -> Station:
     """Ports, drive, state and latencies of the real-time side."""
     return describe_station(service)
+
+
+@router.put("/view3d", responses=answers(401, 422, 503))
+def show_in_view3d(form: View3DShown, _: AccountDep, service: ServiceDep) -> View3DShown:
+    """Choose what the 3-D view shows, for everybody who looks."""
+    service.view3d.shown = Shown(sensors=form.sensors, bounds=form.bounds)
+    return form
 
 
 @router.get("/games", responses=answers(401, 503))

@@ -109,6 +109,15 @@ def test_visers_page_comes_through_with_rules_of_its_own(therapist):
     assert "<title>Viser</title>" in page.text
     assert "frame-ancestors 'self'" in page.headers["content-security-policy"]
     assert therapist.get("/view3d").headers["location"] == "/view3d/"
+    assert page.text.count(".mantine-Notifications-root, .mantine-Paper-root") == 1
+
+
+def test_a_person_chooses_what_the_view_shows(shared, therapist):
+    chosen = {"sensors": False, "bounds": True}
+    assert therapist.put("/api/view3d", json=chosen).json() == chosen
+    assert (shared.service.view3d.shown.sensors, shared.service.view3d.shown.bounds) == (False, True)
+    assert therapist.put("/api/view3d", json={"sensors": "maybe", "bounds": True}).status_code == 422
+    therapist.put("/api/view3d", json={"sensors": True, "bounds": False}).raise_for_status()
 
 
 @pytest.mark.parametrize("path", ["/view3d", "/view3d/"])

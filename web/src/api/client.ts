@@ -2,7 +2,7 @@
 import createClient from "openapi-fetch";
 import { t } from "../strings";
 import type { paths } from "./schema";
-import type { Action, ErrorDetail, PatientForm, SessionOpen } from "./types";
+import type { Action, ErrorDetail, PatientForm, SessionOpen, View3dShown } from "./types";
 
 /** A refusal or a failure, as something a person can read and act upon. */
 export class Problem extends Error {
@@ -71,6 +71,8 @@ export const control = (id: number, action: Action) =>
   taken(http.POST("/api/sessions/{session_id}/control", { ...session(id), body: { action } }));
 export const endSession = (id: number, painAfter: number | null) =>
   taken(http.POST("/api/sessions/{session_id}/end", { ...session(id), body: { pain_after: painAfter } }));
+
+export const showInView3d = (shown: View3dShown) => taken(http.PUT("/api/view3d", { body: shown }));
 
 export const readStation = () => taken(http.GET("/api/station"));
 

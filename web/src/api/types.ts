@@ -25,6 +25,7 @@ export type SessionOpen = Schemas["SessionOpen"];
 export type Side = Schemas["Side"];
 export type Station = Schemas["Station"];
 export type Status = Schemas["Status"];
+export type View3dShown = Schemas["View3DShown"];
 
 /** The exoskeleton's joints, in the order in which the service lists their values. */
 export const JOINTS = ["plane", "elevation", "rotation", "elbow"] as const;

@@ -163,6 +163,8 @@ export const en = {
   "live.view3d": "3-D view of sensors, body and exoskeleton",
   "live.view3d.hide": "Hide 3-D view",
   "live.view3d.show": "Show 3-D view",
+  "live.view3d.sensors": "Sensors",
+  "live.view3d.bounds": "Bounds",
   "live.play": "Patient's screen ↗",
   "live.score": "points · hits: {hits}",
   "control.start": "Start",

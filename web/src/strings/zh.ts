@@ -160,6 +160,8 @@ export const zh: Record<Key, string> = {
   "live.view3d": "传感器、身体与外骨骼的三维视图",
   "live.view3d.hide": "隐藏三维视图",
   "live.view3d.show": "显示三维视图",
+  "live.view3d.sensors": "传感器",
+  "live.view3d.bounds": "误差界",
   "live.play": "患者屏幕 ↗",
   "live.score": "分 · 已收集 {hits}",
   "control.start": "开始",

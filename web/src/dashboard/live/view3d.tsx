@@ -1,6 +1,8 @@
 // The 3-D view of sensors, body and exoskeleton; may be put away, because drawing it without a graphics card takes the
 // better part of a small computer.
-import { useRef, useState } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
+import { showInView3d } from "../../api/client";
+import type { View3dShown } from "../../api/types";
 import { t } from "../../strings";
 
 const VIEW_PAGE = "/view3d/";
@@ -18,6 +20,33 @@ export function View3d({ onLoad }: { onLoad: (inside: Window | null) => void }) 
         onLoad={() => onLoad(frame.current?.contentWindow ?? null)}
         data-testid="view3d"
       />
+      <Layers />
+    </div>
+  );
+}
+
+/** What is drawn besides the body and the exoskeleton; the same for everybody who looks. */
+function Layers() {
+  const [shown, setShown] = useState<View3dShown>({ sensors: true, bounds: false });
+  useEffect(() => {
+    // A view without its switches is still a view; a lost service is said by the page's banner.
+    showInView3d(shown).catch(() => undefined);
+  }, [shown]);
+  const layer = (name: keyof View3dShown) => (
+    <button
+      type="button"
+      aria-pressed={shown[name]}
+      onClick={() => setShown({ ...shown, [name]: !shown[name] })}
+      data-testid={`view3d-${name}`}
+    >
+      {shown[name] ? "✓ " : ""}
+      {t(`live.view3d.${name}`)}
+    </button>
+  );
+  return (
+    <div class="view3d-layers">
+      {layer("sensors")}
+      {layer("bounds")}
     </div>
   );
 }
