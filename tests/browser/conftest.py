@@ -21,7 +21,8 @@ ARGUMENTS = [
 SHOTS = Path(__file__).parents[2] / "test-results"
 
 
-@pytest.fixture(scope="session")
+# By module: Playwright's event loop must have ended before other tests ask for one of their own.
+@pytest.fixture(scope="module")
 def browser() -> Iterator[Browser]:
     """Chromium, headless; fails where there is none (`make test` sees to it before)."""
     path = find_browser()
