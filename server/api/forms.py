@@ -191,7 +191,9 @@ class Latencies(BaseModel):
     datagram_to_command: Percentiles
     """Newest datagram in a tick received → its command given to the drive."""
     datagram_to_picture: Percentiles
-    """Newest datagram in a tick received → a page says that it has drawn it."""
+    """Newest datagram in a tick received → the patient's screen says that it has drawn it."""
+    datagram_to_dashboard: Percentiles
+    """The same for the therapist's page."""
 
 
 class Station(BaseModel):
@@ -223,6 +225,7 @@ class Station(BaseModel):
                     "latency": {
                         "datagram_to_command": {"p50_s": 0.006, "p99_s": 0.012, "samples": 1000},
                         "datagram_to_picture": {"p50_s": 0.04, "p99_s": 0.08, "samples": 1000},
+                        "datagram_to_dashboard": {"p50_s": 0.05, "p99_s": 0.1, "samples": 1000},
                     },
                     "device": [
                         {

@@ -7,6 +7,7 @@ from collections import deque
 import numpy as np
 
 from server.api.forms import Latencies, Percentiles
+from server.api.live import Screen
 from server.messages import LiveTick
 
 KEPT = 2000
@@ -31,7 +32,8 @@ class LatencyMeter:
     """Counts each datagram once: a tick that brought none would only say how long the sensors were silent."""
 
     def __init__(self) -> None:
-        self._command, self._picture = _Samples(), _Samples()
+        self._command = _Samples()
+        self._pictures = {screen: _Samples() for screen in Screen}
         self._newest_received_s: float | None = None
 
     def commanded(self, tick: LiveTick) -> None:
@@ -41,13 +43,15 @@ class LatencyMeter:
             self._newest_received_s = tick.t_newest_received_s
             self._command.add(latency_s)
 
-    def drawn(self, tick: LiveTick, now_s: float) -> None:
+    def drawn(self, tick: LiveTick, screen: Screen, now_s: float) -> None:
         """A page has drawn a tick that brought a datagram it had not drawn before."""
         if tick.t_newest_received_s is not None:
-            self._picture.add(now_s - tick.t_newest_received_s)
+            self._pictures[screen].add(now_s - tick.t_newest_received_s)
 
     def read(self) -> Latencies:
         """The percentiles as they stand."""
         return Latencies(
-            datagram_to_command=self._command.percentiles(), datagram_to_picture=self._picture.percentiles()
+            datagram_to_command=self._command.percentiles(),
+            datagram_to_picture=self._pictures[Screen.PATIENT].percentiles(),
+            datagram_to_dashboard=self._pictures[Screen.DASHBOARD].percentiles(),
         )

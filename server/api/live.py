@@ -46,7 +46,16 @@ class LiveMessage(msgspec.Struct, frozen=True, kw_only=True):
     session: SessionView | None
 
 
+class Screen(StrEnum):
+    """What kind of page looks."""
+
+    PATIENT = "patient"
+    DASHBOARD = "dashboard"
+
+
 class Acknowledgement(msgspec.Struct, frozen=True, kw_only=True):
-    """The page has drawn the tick of that index and wants the next."""
+    """The page has taken the tick of that index and wants the next."""
 
     ack: int
+    drawn_on: Screen | None = None
+    """Where it has been drawn; None in a hidden window, which draws nothing and measures nothing."""

@@ -41,7 +41,7 @@ class _Page:
 
     def __init__(self, socket: WebSocket, box: Newest[Broadcast], service: Service) -> None:
         self._socket, self._box, self._service = socket, box, service
-        self._drawn: Newest[int] = Newest()
+        self._answers: Newest[Acknowledgement] = Newest()
         self._last_received_s: float | None = None
 
     def works(self) -> tuple[Coroutine[Any, Any, None], Coroutine[Any, Any, None]]:
@@ -57,15 +57,15 @@ class _Page:
 
     async def _until_drawn(self, broadcast: Broadcast) -> None:
         tick = broadcast.message.tick
-        while await self._drawn.take() != tick.index:
+        while (answer := await self._answers.take()).ack != tick.index:
             continue  # an acknowledgement of something else, or a page that makes them up
-        if tick.t_newest_received_s != self._last_received_s:
+        if answer.drawn_on is not None and tick.t_newest_received_s != self._last_received_s:
             self._last_received_s = tick.t_newest_received_s
-            self._service.latency.drawn(tick, time.monotonic())
+            self._service.latency.drawn(tick, answer.drawn_on, time.monotonic())
 
     async def _listen(self) -> None:
         try:
             async for text in self._socket.iter_text():
-                self._drawn.put(_acks.decode(text).ack)
+                self._answers.put(_acks.decode(text))
         except msgspec.MsgspecError:
             await self._socket.close(1003, 'expected {"ack": index}')

@@ -35,7 +35,7 @@ def read_on(socket):
 
 
 def draw(socket, message):
-    socket.send(json.dumps({"ack": message["tick"]["index"]}))
+    socket.send(json.dumps({"ack": message["tick"]["index"], "drawn_on": "patient"}))
 
 
 def test_ticks_come_in_order_while_they_are_drawn(open_stream):
@@ -103,6 +103,16 @@ def test_the_time_to_the_picture_is_what_the_page_took(shared, therapist, open_s
     assert latency["datagram_to_picture"]["samples"] >= 5
     assert latency["datagram_to_picture"]["p99_s"] >= 0.05
     assert latency["datagram_to_command"]["p50_s"] == pytest.approx(0.006)
+
+
+def test_a_hidden_window_measures_nothing(shared, therapist, open_stream):
+    before = therapist.get("/api/station").json()["latency"]
+    socket = open_stream()
+    for _ in range(3):
+        socket.send(json.dumps({"ack": read(socket)["tick"]["index"]}))
+    after = therapist.get("/api/station").json()["latency"]
+    for screen in ("datagram_to_picture", "datagram_to_dashboard"):
+        assert after[screen]["samples"] == before[screen]["samples"]
 
 
 def test_a_page_that_leaves_is_forgotten(shared, open_stream):

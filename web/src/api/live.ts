@@ -1,5 +1,5 @@
 // The live stream: one message at a time from the service, acknowledged once it can have been drawn.
-import type { LiveMessage } from "./types";
+import type { LiveMessage, Screen } from "./types";
 
 /** How the connection stands; `lost` means that it is being tried again. */
 export type Link = "connecting" | "open" | "lost";
@@ -24,15 +24,15 @@ export function retryDelayMs(attempt: number): number {
   return Math.min(FIRST_RETRY_MS * 2 ** attempt, LONGEST_RETRY_MS);
 }
 
-/** Calls `act` after the next frame has been drawn, or after a short while in a hidden window. */
-function afterDrawing(act: () => void): void {
+/** Calls `act(true)` once the next frame is being drawn, or `act(false)` after a short while in a hidden window. */
+function afterDrawing(act: (isDrawn: boolean) => void): void {
   let done = false;
-  const once = () => {
-    if (!done) act();
+  const once = (isDrawn: boolean) => {
+    if (!done) act(isDrawn);
     done = true;
   };
-  requestAnimationFrame(once);
-  setTimeout(once, HIDDEN_ACK_MS);
+  requestAnimationFrame(() => once(true));
+  setTimeout(() => once(false), HIDDEN_ACK_MS);
 }
 
 /**
@@ -43,6 +43,7 @@ function afterDrawing(act: () => void): void {
  * ticks and is never shown stale ones.
  */
 export function connectLive(
+  screen: Screen,
   onMessage: (message: LiveMessage) => void,
   onLink: (link: Link) => void = () => {},
 ): LiveConnection {
@@ -51,13 +52,14 @@ export function connectLive(
   let attempt = 0;
   let closed = false;
 
-  const acknowledge = (from: WebSocket, index: number) => {
-    if (from.readyState === WebSocket.OPEN) from.send(JSON.stringify({ ack: index }));
+  const acknowledge = (from: WebSocket, index: number, isDrawn: boolean) => {
+    if (from.readyState !== WebSocket.OPEN) return;
+    from.send(JSON.stringify({ ack: index, drawn_on: isDrawn ? screen : null }));
   };
   const receive = (from: WebSocket, text: string) => {
     const message = JSON.parse(text) as LiveMessage;
     onMessage(message);
-    afterDrawing(() => acknowledge(from, message.tick.index));
+    afterDrawing((isDrawn) => acknowledge(from, message.tick.index, isDrawn));
   };
   const open = () => {
     const mine = new WebSocket(streamAddress(new URL(location.href)));

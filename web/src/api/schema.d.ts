@@ -428,10 +428,12 @@ export interface components {
         };
         /**
          * Acknowledgement
-         * @description The page has drawn the tick of that index and wants the next.
+         * @description The page has taken the tick of that index and wants the next.
          */
         Acknowledgement: {
             ack: number;
+            /** @default null */
+            drawn_on: components["schemas"]["Screen"] | null;
         };
         /**
          * AllLimits
@@ -792,6 +794,7 @@ export interface components {
          */
         Latencies: {
             datagram_to_command: components["schemas"]["Percentiles"];
+            datagram_to_dashboard: components["schemas"]["Percentiles"];
             datagram_to_picture: components["schemas"]["Percentiles"];
         };
         /**
@@ -1046,6 +1049,12 @@ export interface components {
             samples: number;
         };
         /**
+         * Screen
+         * @description What kind of page looks.
+         * @enum {unknown}
+         */
+        Screen: "dashboard" | "patient";
+        /**
          * SensorView
          * @description One sensor as the therapist sees it.
          */
@@ -1270,6 +1279,11 @@ export interface components {
          *         "datagram_to_command": {
          *           "p50_s": 0.006,
          *           "p99_s": 0.012,
+         *           "samples": 1000
+         *         },
+         *         "datagram_to_dashboard": {
+         *           "p50_s": 0.05,
+         *           "p99_s": 0.1,
          *           "samples": 1000
          *         },
          *         "datagram_to_picture": {

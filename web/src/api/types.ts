@@ -22,6 +22,7 @@ export type Session = Schemas["SessionPublic"];
 export type SessionDetail = Schemas["SessionDetail"];
 export type SessionEvent = Schemas["EventPublic"];
 export type SessionOpen = Schemas["SessionOpen"];
+export type Screen = Schemas["Screen"];
 export type Side = Schemas["Side"];
 export type Station = Schemas["Station"];
 export type Status = Schemas["Status"];

@@ -25,6 +25,7 @@ function start(): void {
   if (!picture) return;
   let access: Access = "connecting";
   connectLive(
+    "patient",
     (message: LiveMessage) => picture.take(message, seconds()),
     (link) => {
       access = link;

@@ -21,6 +21,7 @@ export function useFeed(): Feed {
   const [feed] = useState(() => new Feed());
   useEffect(() => {
     const connection = connectLive(
+      "dashboard",
       (message) => feed.take(message),
       (link) => {
         feed.link = link;
