@@ -22,7 +22,6 @@ from fusion.evaluation.runs import Evaluation, Way, evaluate_recording, pooled, 
 from fusion.evaluation.scores import Score
 from fusion.recording.reader import read_recording
 
-STDOUT = "-"
 TABLE_WIDTH = 100
 """Figures are not cut off where the terminal is narrower, or none."""
 
@@ -30,11 +29,9 @@ TABLE_WIDTH = 100
 def evaluate(
     recording: Annotated[list[Path], typer.Argument(help="Recordings with truth.", show_default=False)],
     method: Annotated[
-        list[str] | None, typer.Option(help=f"One of {', '.join(METHODS)}; again for more. All by default.")
+        list[str] | None, typer.Option(help=f"One or more of {', '.join(METHODS)}. All by default.")
     ] = None,
-    json_file: Annotated[
-        str | None, typer.Option("--json", metavar="FILE", help="Write all figures as JSON; - for standard output.")
-    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print all figures as JSON instead of tables.")] = False,
     markdown: Annotated[Path | None, typer.Option(metavar="FILE", help="Write the tables as Markdown.")] = None,
 ) -> None:
     """Fuse recordings with every method and every sensor alone, and compare with their truth.
@@ -42,15 +39,21 @@ def evaluate(
     Alignment and clock offsets are estimated: once from the whole recording, once on the way as live. Everything after
     the first two seconds is scored, occluded and lost frames too.
     """
-    methods = _known(method or list(METHODS))
-    evaluations = _evaluated(recording, methods)
-    if json_file != STDOUT:
-        terminal = Console()
-        _show(Console(width=max(terminal.width, TABLE_WIDTH)), evaluations)
-    if json_file is not None:
-        _write(json_file, json.dumps(_as_json(evaluations), indent=1) + "\n")
+    recordings, more_methods = _told_apart(recording, bool(method))
+    methods = _known([*(method or METHODS), *more_methods])
+    evaluations = _evaluated(recordings, methods)
+    if as_json:
+        sys.stdout.write(json.dumps(_as_json(evaluations), indent=1) + "\n")
+    else:
+        _show(Console(width=max(Console().width, TABLE_WIDTH)), evaluations)
     if markdown is not None:
-        _write(str(markdown), page(evaluations, _command(recording, markdown)))
+        _write(markdown, page(evaluations, _command(recordings, markdown)))
+
+
+def _told_apart(words: Sequence[Path], after_method: bool) -> tuple[list[Path], list[str]]:
+    """Recordings, and the further names of `--method NAME NAME`, which the command line hands us as recordings."""
+    names = [str(word) for word in words if after_method and str(word) in METHODS and not word.exists()]
+    return [word for word in words if str(word) not in names], names
 
 
 def _command(recordings: Sequence[Path], markdown: Path) -> str:
@@ -134,13 +137,10 @@ def _way(way: Way) -> dict[str, Any]:
     return {"name": way.name, "method": way.method, "causal": way.causal, "only_sensor": way.only_sensor}
 
 
-def _write(name: str, text: str) -> None:
-    if name == STDOUT:
-        sys.stdout.write(text)
-        return
+def _write(file: Path, text: str) -> None:
     try:
-        Path(name).write_text(text, encoding="utf-8")
+        file.write_text(text, encoding="utf-8")
     except OSError as error:
         raise MachineError(
-            f"cannot write {name}: {error.strerror}", "a file in a folder that exists", "name another"
+            f"cannot write {file}: {error.strerror}", "a file in a folder that exists", "name another"
         ) from error

@@ -48,7 +48,7 @@ def test_one_recording_shows_every_joint_and_the_arm(tmp_path, monkeypatch, caps
 
 
 def test_json_to_standard_output_is_nothing_but_json(tmp_path, monkeypatch, capsys) -> None:
-    assert run(monkeypatch, written(tmp_path / "one"), "--method", "average", "--json", "-") == 0
+    assert run(monkeypatch, written(tmp_path / "one"), "--method", "average", "--json") == 0
     said = json.loads(capsys.readouterr().out)
     (recording,) = said["recordings"]
     assert recording["healthy_side"] == "left"
@@ -64,8 +64,8 @@ def test_json_to_standard_output_is_nothing_but_json(tmp_path, monkeypatch, caps
 
 def test_several_recordings_are_pooled_and_written_as_a_page(tmp_path, monkeypatch, capsys) -> None:
     one, two = written(tmp_path / "one"), written(tmp_path / "two")
-    report, figures = tmp_path / "results.md", tmp_path / "figures.json"
-    assert run(monkeypatch, one, two, "--method", "average", "--markdown", report, "--json", figures) == 0
+    report = tmp_path / "results.md"
+    assert run(monkeypatch, one, two, "--method", "average", "--markdown", report) == 0
     said = capsys.readouterr().out
     assert "2 recordings together" in said
     assert "WristLeft" not in said
@@ -73,15 +73,22 @@ def test_several_recordings_are_pooled_and_written_as_a_page(tmp_path, monkeypat
     assert "## one" in page
     assert "## two" in page
     assert str(tmp_path) not in page
-    pooled = json.loads(figures.read_text())["pooled"]
+    assert run(monkeypatch, one, two, "--method", "average", "--json") == 0
+    pooled = json.loads(capsys.readouterr().out)["pooled"]
     assert pooled[0]["healthy_arm"]["instants"] == 2 * 3 * 61
+
+
+def test_several_methods_may_follow_one_option(tmp_path, monkeypatch, capsys) -> None:
+    assert run(monkeypatch, written(tmp_path / "one"), "--method", "average", "kalman", "--json") == 0
+    (recording,) = json.loads(capsys.readouterr().out)["recordings"]
+    assert {r["method"] for r in recording["runs"] if not r["only_sensor"]} == {"average", "kalman"}
 
 
 @pytest.mark.parametrize(
     ("arguments", "expected"),
     [
         (["--method", "magic"], "no method is called 'magic'"),
-        (["--json", "/nowhere/figures.json"], "cannot write /nowhere/figures.json"),
+        (["--markdown", "/nowhere/results.md"], "cannot write /nowhere/results.md"),
     ],
 )
 def test_what_cannot_be_done_is_said_in_a_sentence(arguments, expected, tmp_path, monkeypatch, capsys) -> None:
