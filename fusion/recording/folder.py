@@ -10,12 +10,22 @@ import numpy as np
 
 from fusion.errors import RecordingError
 from fusion.messages import Floats, SkeletonSample, States
-from fusion.recording.recording import OtherStream, Recording, SkeletonStream, Trouble, TruthStream
+from fusion.recording.inertial import read_imu, read_orientation_truth, refuse_twins
+from fusion.recording.recording import (
+    ImuStream,
+    OrientationTruth,
+    OtherStream,
+    Recording,
+    SkeletonStream,
+    Trouble,
+    TruthStream,
+)
 from fusion.recording.table import Table, read_table
 from fusion.skeleton import INDEX, JOINT_COUNT, Side
 
 FORMAT = "mirrorlimb-recording/1"
 KINDS = ("skeleton", "truth", "imu", "range", "truth-orientation")
+LOADED = ("skeleton", "truth", "imu", "truth-orientation")
 SKELETON_COLUMNS = ("t_s", "body", "joint", "x_m", "y_m", "z_m", "state")
 TRUTH_COLUMNS = ("t_s", "joint", "x_m", "y_m", "z_m")
 _STATES = {"0": 0, "1": 1, "2": 2}
@@ -31,6 +41,7 @@ class StreamEntry(msgspec.Struct, frozen=True):
     primary: bool = False
     clock: str = "sensor"
     tags: tuple[str, ...] = ()
+    site: str = ""
 
 
 class EventEntry(msgspec.Struct, frozen=True):
@@ -73,10 +84,10 @@ def read_folder(folder: Path) -> Recording:
         events=tuple(Trouble(e.sensor, e.kind, e.from_s, e.to_s) for e in manifest.events),
         path=folder,
         origin=manifest.origin,
+        imu_streams=_read_imus(folder, manifest),
+        orientation_truth=_read_orientation_truth(folder, manifest),
         other_streams=tuple(
-            OtherStream(entry.kind, folder / entry.file)
-            for entry in manifest.streams
-            if entry.kind not in ("skeleton", "truth")
+            OtherStream(entry.kind, folder / entry.file) for entry in manifest.streams if entry.kind not in LOADED
         ),
     )
 
@@ -195,3 +206,17 @@ def _read_truth(folder: Path, entry: StreamEntry, tags: list[str]) -> TruthStrea
     positions[row, column] = _points(table, np.zeros(len(row), dtype=bool))
     names = list(known)
     return TruthStream(t_s, tuple(names[i] for i in present), positions, entry.clock)
+
+
+# ---------------------------------------------------------------- inertial sensors
+
+
+def _read_imus(folder: Path, manifest: Manifest) -> tuple[ImuStream, ...]:
+    entries = [entry for entry in manifest.streams if entry.kind == "imu"]
+    refuse_twins(folder / "recording.json", [entry.site for entry in entries])
+    return tuple(read_imu(folder / entry.file, entry.site) for entry in entries)
+
+
+def _read_orientation_truth(folder: Path, manifest: Manifest) -> OrientationTruth | None:
+    entries = [entry for entry in manifest.streams if entry.kind == "truth-orientation"]
+    return read_orientation_truth(folder / entries[0].file) if entries else None

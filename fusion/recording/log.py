@@ -22,9 +22,11 @@ from fusion.skeleton import JOINT_COUNT, Side
 LOG_FORMAT: Final = "mirrorlimb-log/1"
 METADATA: Final = "mirrorlimb"
 PACKETS, SAMPLES, TICKS, EVENTS, TRUTH = "packets", "samples", "ticks", "events", "truth"
-CHANNELS: Final = (PACKETS, SAMPLES, TICKS, EVENTS, TRUTH)
+IMU, ORIENTATION_TRUTH = "imu", "truth-orientation"
+CHANNELS: Final = (PACKETS, SAMPLES, TICKS, EVENTS, TRUTH, IMU, ORIENTATION_TRUTH)
 _CHUNK_BYTES: Final = 32 * 1024
 _NS_PER_S: Final = 1e9
+_ROWS_AT_ONCE: Final = 256
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,6 +69,14 @@ class TruthEntry(msgspec.Struct, frozen=True, array_like=True):
     clock: str
     joints: tuple[str, ...]  # (N,)
     positions: bytes  # (N, 3) m
+
+
+class NumbersEntry(msgspec.Struct, frozen=True, array_like=True):
+    """Some rows of a stream of numbers; the first column is the time."""
+
+    name: str
+    columns: int
+    rows: bytes  # (rows, columns) little-endian float64
 
 
 class LogWriter:
@@ -114,6 +124,13 @@ class LogWriter:
         """Keep where things really were at one instant; for converted recordings."""
         entry = TruthEntry(t_s, clock, joints, positions.astype("<f8").tobytes())
         self._add(TRUTH, self._encode(entry), t_s)
+
+    def numbers(self, topic: str, name: str, table: Floats) -> None:
+        """Keep a stream of numbers (T, columns), time first; for converted recordings."""
+        for start in range(0, len(table), _ROWS_AT_ONCE):
+            rows = table[start : start + _ROWS_AT_ONCE]
+            entry = NumbersEntry(name, table.shape[1], rows.astype("<f8").tobytes())
+            self._add(topic, self._encode(entry), float(rows[0, 0]))
 
     def tick(self, tick: bytes, t_s: float) -> None:
         """Keep a tick, already encoded as msgpack."""

@@ -15,24 +15,28 @@ from mcap.records import Channel, Footer, Message, Metadata
 from mcap.stream_reader import StreamReader
 
 from fusion.errors import RecordingError
-from fusion.messages import Packet, SkeletonSample
+from fusion.messages import Floats, Packet, SkeletonSample
 from fusion.recording.folder import EventEntry
+from fusion.recording.inertial import imu_from_block, orientation_truth_from_table
 from fusion.recording.log import (
     EVENTS,
+    IMU,
     LOG_FORMAT,
     METADATA,
+    ORIENTATION_TRUTH,
     PACKETS,
     SAMPLES,
     TICKS,
     TRUTH,
     LogAbout,
+    NumbersEntry,
     PacketEntry,
     SampleEntry,
     TruthEntry,
     about_from_metadata,
     as_sample,
 )
-from fusion.recording.recording import Recording, SkeletonStream, Trouble, TruthStream
+from fusion.recording.recording import OrientationTruth, Recording, SkeletonStream, Trouble, TruthStream
 
 # What mcap, lz4 and struct raise on a record that is not whole.
 _CUT_OFF: Final = (McapError, struct.error, ValueError, RuntimeError, EOFError, OverflowError, MemoryError)
@@ -89,6 +93,16 @@ class LogReader:
     def truth(self) -> Iterator[TruthEntry]:
         """The instants of truth of a converted recording."""
         yield from self._decoded(TRUTH, TruthEntry)
+
+    def numbers(self, topic: str) -> dict[str, Floats]:
+        """The streams of numbers of a topic by name, each (T, columns)."""
+        entries: dict[str, list[NumbersEntry]] = {}
+        for entry in self._decoded(topic, NumbersEntry):
+            entries.setdefault(entry.name, []).append(entry)
+        try:
+            return {name: np.concatenate([_rows(entry) for entry in parts]) for name, parts in entries.items()}
+        except ValueError as error:
+            raise self._broken(f"{topic}: {error}") from None
 
     def ticks(self) -> Iterator[LogEntry]:
         """The station's ticks, still encoded."""
@@ -151,6 +165,8 @@ def read_log(path: Path) -> Recording:
         events=_trouble(reader),
         path=path,
         origin=about.origin,
+        imu_streams=tuple(imu_from_block(site, block) for site, block in reader.numbers(IMU).items()),
+        orientation_truth=_orientation_truth(reader),
     )
 
 
@@ -169,6 +185,15 @@ def _truth(reader: LogReader) -> TruthStream | None:
         raise RecordingError(f"{reader.path}: truth of changing size", "the same joints throughout", "fetch it again")
     t_s = np.array([entry.t_s for entry in entries])
     return TruthStream(t_s, joints, flat.reshape(len(entries), len(joints), 3), entries[0].clock)
+
+
+def _rows(entry: NumbersEntry) -> Floats:
+    return np.frombuffer(entry.rows, dtype="<f8").reshape(-1, entry.columns)
+
+
+def _orientation_truth(reader: LogReader) -> OrientationTruth | None:
+    tables = list(reader.numbers(ORIENTATION_TRUTH).values())
+    return orientation_truth_from_table(tables[0]) if tables else None
 
 
 def _trouble(reader: LogReader) -> tuple[Trouble, ...]:

@@ -7,9 +7,26 @@ from pathlib import Path
 from fusion.errors import RecordingError
 from fusion.recording.folder import read_folder
 from fusion.recording.log_reader import read_log
-from fusion.recording.recording import OtherStream, Recording, SkeletonStream, Trouble, TruthStream
+from fusion.recording.recording import (
+    ImuStream,
+    OrientationTruth,
+    OtherStream,
+    Recording,
+    SkeletonStream,
+    Trouble,
+    TruthStream,
+)
 
-__all__ = ["OtherStream", "Recording", "SkeletonStream", "Trouble", "TruthStream", "read_recording"]
+__all__ = [
+    "ImuStream",
+    "OrientationTruth",
+    "OtherStream",
+    "Recording",
+    "SkeletonStream",
+    "Trouble",
+    "TruthStream",
+    "read_recording",
+]
 
 
 def read_recording(path: Path) -> Recording:

@@ -5,6 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+from numpy.typing import NDArray
+
 from fusion.messages import Floats, SkeletonSample
 from fusion.skeleton import Side
 
@@ -31,6 +34,28 @@ class TruthStream:
     joints: tuple[str, ...]  # (N,) joint names, or tag names in a ranging recording
     positions: Floats  # (T, N, 3) m, in the primary sensor's frame; NaN where there is no truth
     clock: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class ImuStream:
+    """What one inertial sensor measured, in its own axes."""
+
+    site: str
+    """Where it sits: `upper-arm-left`, `forearm-left`, `hand-left`, …, `upper-back`."""
+    t_s: Floats  # (T,) rising
+    gyro_rad_s: Floats  # (T, 3)
+    accel_m_s2: Floats  # (T, 3) specific force: a sensor at rest measures 9.81 upwards
+    magnet_ut: Floats | None = None  # (T, 3) microtesla
+    orientation: Floats | None = None  # (T, 4) sensor to earth, w first, as the sensor itself said it
+
+
+@dataclass(frozen=True, slots=True)
+class OrientationTruth:
+    """How an inertial sensor was really turned."""
+
+    t_s: Floats  # (T,)
+    orientation: Floats  # (T, 4) sensor to earth (z up), w first; NaN where unknown
+    moving: NDArray[np.bool_]  # (T,) the samples that count
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,3 +89,5 @@ class Recording:
     path: Path
     origin: str = ""
     other_streams: tuple[OtherStream, ...] = ()
+    imu_streams: tuple[ImuStream, ...] = ()
+    orientation_truth: OrientationTruth | None = None

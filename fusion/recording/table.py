@@ -65,13 +65,20 @@ class Table:
         raise RecordingError(f"{self.path}, line {self.lines[row]}: {problem}", expected, _MEND)
 
 
-def read_table(path: Path, wanted: Sequence[str]) -> Table:
+def read_table(path: Path, wanted: Sequence[str], optional: Sequence[Sequence[str]] = ()) -> Table:
     """Read the wanted columns of a `.csv` or `.csv.gz`; others are left alone, the order is free.
+
+    Args:
+        path: the file.
+        wanted: columns that must be there.
+        optional: groups of columns; a group that is begun must be whole.
 
     Raises:
         RecordingError: the file is missing, unreadable, not CSV, lacks a column or has a row of another length.
     """
     header, rows, lines = _rows(path, _text(path))
+    begun = [name for group in optional if set(group) & set(header) for name in group]
+    wanted = [*wanted, *begun]
     _check_header(path, header, wanted)
     _check_widths(path, rows, lines, len(header))
     columns = tuple(zip(*rows, strict=True)) or ((),) * len(header)

@@ -11,11 +11,20 @@ from pathlib import Path
 import msgspec
 
 from fusion.errors import InputError, MachineError
-from fusion.messages import SkeletonSample
+from fusion.messages import Floats, SkeletonSample
 from fusion.recording.folder import FORMAT, SKELETON_COLUMNS, TRUTH_COLUMNS
-from fusion.recording.log import LogAbout, LogWriter
+from fusion.recording.inertial import (
+    ORIENTATION_TRUTH_COLUMNS,
+    imu_block,
+    imu_columns,
+    imu_table,
+    orientation_truth_table,
+)
+from fusion.recording.log import IMU, ORIENTATION_TRUTH, LogAbout, LogWriter
 from fusion.recording.recording import Recording, SkeletonStream, TruthStream
 from fusion.skeleton import JOINTS
+
+_ORIENTATION_TRUTH_FILE = "truth-orientation.csv.gz"
 
 
 def write_recording(recording: Recording, path: Path) -> None:
@@ -47,6 +56,7 @@ def _write_folder(recording: Recording, folder: Path) -> None:
         _write_table(folder / name, SKELETON_COLUMNS, _skeleton_rows(stream.samples))
     if recording.truth is not None:
         _write_table(folder / "truth.csv.gz", TRUTH_COLUMNS, _truth_rows(recording.truth))
+    _write_inertial(recording, folder)
     (folder / "recording.json").write_bytes(msgspec.json.format(msgspec.json.encode(_manifest(recording, names))))
 
 
@@ -59,6 +69,7 @@ def _manifest(recording: Recording, names: list[str]) -> dict[str, object]:
     streams = [_stream_entry(name, s) for name, s in zip(names, recording.skeleton_streams, strict=True)]
     if recording.truth is not None:
         streams.append({"file": "truth.csv.gz", "kind": "truth", "clock": recording.truth.clock})
+    streams += _inertial_entries(recording)
     manifest: dict[str, object] = {"format": FORMAT, "name": recording.name, "about": recording.about}
     if recording.origin:
         manifest["origin"] = recording.origin
@@ -103,6 +114,29 @@ def _truth_rows(truth: TruthStream) -> Iterator[tuple[object, ...]]:
                 yield f"{t_s:.6f}", name, f"{x:.4f}", f"{y:.4f}", f"{z:.4f}"
 
 
+def _write_inertial(recording: Recording, folder: Path) -> None:
+    for stream, entry in zip(recording.imu_streams, _inertial_entries(recording), strict=False):
+        _write_table(folder / str(entry["file"]), imu_columns(stream), _number_rows(imu_table(stream)))
+    if recording.orientation_truth is not None:
+        rows = _number_rows(orientation_truth_table(recording.orientation_truth))
+        _write_table(folder / _ORIENTATION_TRUTH_FILE, ORIENTATION_TRUTH_COLUMNS, rows)
+
+
+def _inertial_entries(recording: Recording) -> list[dict[str, object]]:
+    entries: list[dict[str, object]] = [
+        {"file": f"imu-{_file_name(stream.site, number)}", "kind": "imu", "site": stream.site}
+        for number, stream in enumerate(recording.imu_streams)
+    ]
+    if recording.orientation_truth is not None:
+        entries.append({"file": _ORIENTATION_TRUTH_FILE, "kind": "truth-orientation"})
+    return entries
+
+
+def _number_rows(table: Floats) -> Iterator[tuple[object, ...]]:
+    for row in table.tolist():
+        yield tuple(f"{number:.6f}" for number in row)
+
+
 def _write_table(path: Path, columns: tuple[str, ...], rows: Iterable[tuple[object, ...]]) -> None:
     text = io.StringIO(newline="")
     writer = csv.writer(text, lineterminator="\n")
@@ -124,6 +158,10 @@ def _write_log(recording: Recording, path: Path) -> None:
         if recording.truth is not None:
             for t_s, points in zip(recording.truth.t_s.tolist(), recording.truth.positions, strict=True):
                 log.truth(t_s, recording.truth.clock, recording.truth.joints, points)
+        for stream in recording.imu_streams:
+            log.numbers(IMU, stream.site, imu_block(stream))
+        if recording.orientation_truth is not None:
+            log.numbers(ORIENTATION_TRUTH, "", orientation_truth_table(recording.orientation_truth))
 
 
 def _in_time(streams: Iterable[SkeletonStream]) -> list[SkeletonSample]:
