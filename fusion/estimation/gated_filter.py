@@ -71,11 +71,14 @@ def carried_on(track: Track, positions: Floats, t_s: float) -> Floats:
     return positions + np.where(np.isfinite(track.position), track.velocity, 0.0) * late_s
 
 
-def distance_squared(track: Track, positions: Floats, variance: Floats) -> Floats:
-    """(J,) squared distance of a measurement from its prediction in standard deviations, d' S^-1 d."""
-    innovation = positions - track.position
-    squared: Floats = np.einsum("jk,jk->j", innovation, innovation)
-    return squared / (track.pp + variance)
+def sigmas_off(track: Track, positions: Floats, variance: Floats) -> Floats:
+    """(J,) how far a measurement is from its prediction on its worst axis, in standard deviations of the difference.
+
+    Axis by axis, because that is what a number of sigmas is said of: a distance in three dimensions exceeds 4 twenty
+    times as often as one axis does.
+    """
+    worst: Floats = np.abs(positions - track.position).max(axis=1)
+    return worst / np.sqrt(track.pp + variance)
 
 
 def correct(track: Track, positions: Floats, variance: Floats, used: Flags) -> Track:

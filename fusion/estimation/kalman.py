@@ -83,7 +83,6 @@ def _take(state: KalmanState, sample: AlignedSample) -> tuple[KalmanState, tuple
 
 def _gate(state: KalmanState, track: Track, measured: Measurement, variance: Floats) -> tuple[Flags, Floats]:
     """Which joints pass, and since when each has been refused in a row."""
-    distance = gated_filter.distance_squared(track, measured.positions, variance)
-    near = measured.given & (distance <= GATE_SIGMA**2)
+    near = measured.given & (gated_filter.sigmas_off(track, measured.positions, variance) <= GATE_SIGMA)
     still = np.where(measured.given, np.minimum(state.refused_since_s, track.t_s), state.refused_since_s)
     return near, np.where(near, np.inf, still)

@@ -118,8 +118,7 @@ class Fit:
 
 
 def _fit(state: SetState, track: Track, motion: MotionSet, evidence: Evidence) -> Fit:
-    distance = gated_filter.distance_squared(track, evidence.positions, evidence.variance)
-    near = evidence.used & (distance <= GATE_SIGMA**2)
+    near = evidence.used & (gated_filter.sigmas_off(track, evidence.positions, evidence.variance) <= GATE_SIGMA)
     motion, met = motion_set.take(motion, evidence.positions, evidence.half_width, near | evidence.unchecked)
     since_s = np.where(evidence.used, np.minimum(state.refused_since_s, track.t_s), state.refused_since_s)
     since_s = np.where(met, np.inf, since_s)
