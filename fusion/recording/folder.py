@@ -11,10 +11,10 @@ import numpy as np
 from fusion.errors import RecordingError
 from fusion.messages import Floats, SkeletonSample, States
 from fusion.recording.inertial import read_imu, read_orientation_truth, refuse_twins
+from fusion.recording.ranges import read_ranges
 from fusion.recording.recording import (
     ImuStream,
     OrientationTruth,
-    OtherStream,
     Recording,
     SkeletonStream,
     Trouble,
@@ -25,7 +25,6 @@ from fusion.skeleton import INDEX, JOINT_COUNT, Side
 
 FORMAT = "mirrorlimb-recording/1"
 KINDS = ("skeleton", "truth", "imu", "range", "truth-orientation")
-LOADED = ("skeleton", "truth", "imu", "truth-orientation")
 SKELETON_COLUMNS = ("t_s", "body", "joint", "x_m", "y_m", "z_m", "state")
 TRUTH_COLUMNS = ("t_s", "joint", "x_m", "y_m", "z_m")
 _STATES = {"0": 0, "1": 1, "2": 2}
@@ -41,6 +40,7 @@ class StreamEntry(msgspec.Struct, frozen=True):
     primary: bool = False
     clock: str = "sensor"
     tags: tuple[str, ...] = ()
+    anchors: dict[str, tuple[float, float, float]] = {}  # msgspec copies an empty default
     site: str = ""
 
 
@@ -62,6 +62,7 @@ class Manifest(msgspec.Struct, frozen=True):
     about: str = ""
     origin: str = ""
     healthy_side: Side | None = None
+    up: str = ""
     events: tuple[EventEntry, ...] = ()
 
 
@@ -86,8 +87,10 @@ def read_folder(folder: Path) -> Recording:
         origin=manifest.origin,
         imu_streams=_read_imus(folder, manifest),
         orientation_truth=_read_orientation_truth(folder, manifest),
-        other_streams=tuple(
-            OtherStream(entry.kind, folder / entry.file) for entry in manifest.streams if entry.kind not in LOADED
+        range_streams=tuple(
+            read_ranges(folder / entry.file, entry.anchors, entry.tags)
+            for entry in manifest.streams
+            if entry.kind == "range"
         ),
     )
 
@@ -103,6 +106,8 @@ def _read_manifest(path: Path) -> Manifest:
         raise RecordingError(f"{path} cannot be read ({error.strerror})", "a recording", remedy) from None
     except msgspec.DecodeError as error:
         raise RecordingError(f"{path}: {error}", f"a manifest of format '{FORMAT}'", "mend the file") from None
+    if manifest.up not in ("", "z") and any(entry.kind == "range" for entry in manifest.streams):
+        raise RecordingError(f"{path}: up is '{manifest.up}'", "z up beside a range stream", "turn the anchors' frame")
     if manifest.format != FORMAT:
         raise RecordingError(f"{path}: format is '{manifest.format}'", f"'{FORMAT}'", "convert the recording")
     _check_streams(path, manifest.streams)

@@ -22,8 +22,8 @@ from fusion.skeleton import JOINT_COUNT, Side
 LOG_FORMAT: Final = "mirrorlimb-log/1"
 METADATA: Final = "mirrorlimb"
 PACKETS, SAMPLES, TICKS, EVENTS, TRUTH = "packets", "samples", "ticks", "events", "truth"
-IMU, ORIENTATION_TRUTH = "imu", "truth-orientation"
-CHANNELS: Final = (PACKETS, SAMPLES, TICKS, EVENTS, TRUTH, IMU, ORIENTATION_TRUTH)
+IMU, ORIENTATION_TRUTH, RANGES = "imu", "truth-orientation", "range"
+CHANNELS: Final = (PACKETS, SAMPLES, TICKS, EVENTS, TRUTH, IMU, ORIENTATION_TRUTH, RANGES)
 _CHUNK_BYTES: Final = 32 * 1024
 _NS_PER_S: Final = 1e9
 _ROWS_AT_ONCE: Final = 256

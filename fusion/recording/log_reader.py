@@ -25,6 +25,7 @@ from fusion.recording.log import (
     METADATA,
     ORIENTATION_TRUTH,
     PACKETS,
+    RANGES,
     SAMPLES,
     TICKS,
     TRUTH,
@@ -36,6 +37,7 @@ from fusion.recording.log import (
     about_from_metadata,
     as_sample,
 )
+from fusion.recording.ranges import ranges_from_block
 from fusion.recording.recording import OrientationTruth, Recording, SkeletonStream, Trouble, TruthStream
 
 # What mcap, lz4 and struct raise on a record that is not whole.
@@ -167,6 +169,7 @@ def read_log(path: Path) -> Recording:
         origin=about.origin,
         imu_streams=tuple(imu_from_block(site, block) for site, block in reader.numbers(IMU).items()),
         orientation_truth=_orientation_truth(reader),
+        range_streams=tuple(ranges_from_block(head, block) for head, block in reader.numbers(RANGES).items()),
     )
 
 

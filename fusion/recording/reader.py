@@ -10,7 +10,7 @@ from fusion.recording.log_reader import read_log
 from fusion.recording.recording import (
     ImuStream,
     OrientationTruth,
-    OtherStream,
+    RangeStream,
     Recording,
     SkeletonStream,
     Trouble,
@@ -20,7 +20,7 @@ from fusion.recording.recording import (
 __all__ = [
     "ImuStream",
     "OrientationTruth",
-    "OtherStream",
+    "RangeStream",
     "Recording",
     "SkeletonStream",
     "Trouble",

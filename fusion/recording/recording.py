@@ -27,6 +27,19 @@ class SkeletonStream:
 
 
 @dataclass(frozen=True, slots=True)
+class RangeStream:
+    """Distances between anchors that stand and tags that move, measured by radio; R samples sorted by time."""
+
+    anchors: tuple[str, ...]  # (A,)
+    anchor_positions: Floats  # (A, 3) m, z up
+    tags: tuple[str, ...]  # (K,)
+    t_s: Floats  # (R,)
+    anchor: NDArray[np.int64]  # (R,) index into `anchors`
+    tag: NDArray[np.int64]  # (R,) index into `tags`
+    range_m: Floats  # (R,)
+
+
+@dataclass(frozen=True, slots=True)
 class TruthStream:
     """Where the joints (or tags) really were."""
 
@@ -69,14 +82,6 @@ class Trouble:
 
 
 @dataclass(frozen=True, slots=True)
-class OtherStream:
-    """A stream of a known kind that is listed but not loaded."""
-
-    kind: str
-    path: Path
-
-
-@dataclass(frozen=True, slots=True)
 class Recording:
     """What several sensors saw of one or more people, and the truth where it is known."""
 
@@ -88,6 +93,6 @@ class Recording:
     events: tuple[Trouble, ...]
     path: Path
     origin: str = ""
-    other_streams: tuple[OtherStream, ...] = ()
+    range_streams: tuple[RangeStream, ...] = ()
     imu_streams: tuple[ImuStream, ...] = ()
     orientation_truth: OrientationTruth | None = None

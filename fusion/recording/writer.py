@@ -20,7 +20,8 @@ from fusion.recording.inertial import (
     imu_table,
     orientation_truth_table,
 )
-from fusion.recording.log import IMU, ORIENTATION_TRUTH, LogAbout, LogWriter
+from fusion.recording.log import IMU, ORIENTATION_TRUTH, RANGES, LogAbout, LogWriter
+from fusion.recording.ranges import RANGE_COLUMNS, range_block, range_entry, range_head, range_rows
 from fusion.recording.recording import Recording, SkeletonStream, TruthStream
 from fusion.skeleton import JOINTS
 
@@ -56,6 +57,8 @@ def _write_folder(recording: Recording, folder: Path) -> None:
         _write_table(folder / name, SKELETON_COLUMNS, _skeleton_rows(stream.samples))
     if recording.truth is not None:
         _write_table(folder / "truth.csv.gz", TRUTH_COLUMNS, _truth_rows(recording.truth))
+    for stream_of_ranges, entry in zip(recording.range_streams, _range_entries(recording), strict=True):
+        _write_table(folder / str(entry["file"]), RANGE_COLUMNS, range_rows(stream_of_ranges))
     _write_inertial(recording, folder)
     (folder / "recording.json").write_bytes(msgspec.json.format(msgspec.json.encode(_manifest(recording, names))))
 
@@ -65,10 +68,15 @@ def _file_name(sensor: str, number: int) -> str:
     return f"{number + 1}-{plain}.csv.gz"
 
 
+def _range_entries(recording: Recording) -> list[dict[str, object]]:
+    return [range_entry(s, f"ranges-{number + 1}.csv.gz") for number, s in enumerate(recording.range_streams)]
+
+
 def _manifest(recording: Recording, names: list[str]) -> dict[str, object]:
     streams = [_stream_entry(name, s) for name, s in zip(names, recording.skeleton_streams, strict=True)]
     if recording.truth is not None:
         streams.append({"file": "truth.csv.gz", "kind": "truth", "clock": recording.truth.clock})
+    streams += _range_entries(recording)
     streams += _inertial_entries(recording)
     manifest: dict[str, object] = {"format": FORMAT, "name": recording.name, "about": recording.about}
     if recording.origin:
@@ -160,6 +168,8 @@ def _write_log(recording: Recording, path: Path) -> None:
                 log.truth(t_s, recording.truth.clock, recording.truth.joints, points)
         for stream in recording.imu_streams:
             log.numbers(IMU, stream.site, imu_block(stream))
+        for number, ranges in enumerate(recording.range_streams):
+            log.numbers(RANGES, range_head(ranges, number), range_block(ranges))
         if recording.orientation_truth is not None:
             log.numbers(ORIENTATION_TRUTH, "", orientation_truth_table(recording.orientation_truth))
 

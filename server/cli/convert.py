@@ -20,6 +20,3 @@ def convert(
     write_recording(source, out)
     frames = sum(len(stream.samples) for stream in source.skeleton_streams)
     typer.echo(f"{out}: {len(source.skeleton_streams)} sensors, {frames} frames.")
-    left_out = sorted({stream.kind for stream in source.other_streams})
-    if left_out:
-        typer.echo(f"Left out, as they cannot be converted yet: {', '.join(left_out)}.", err=True)

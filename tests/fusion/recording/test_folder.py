@@ -130,6 +130,6 @@ def test_every_real_recording_can_be_read(recordings: Path) -> None:
     for folder in sorted(path.parent for path in recordings.glob("*/recording.json")):
         recording = read_recording(folder)
         streams = recording.skeleton_streams
-        assert streams or recording.imu_streams or recording.other_streams
+        assert streams or recording.imu_streams or recording.range_streams
         assert [stream.primary for stream in streams].count(True) == bool(streams)
         assert all(len(stream.samples) > 100 for stream in streams)
