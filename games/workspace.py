@@ -17,7 +17,7 @@ Pose = tuple[float, float, float, float]
 MARGIN: Final = 0.1
 """Share of each joint's range kept free at both ends, so that no target asks for an end stop."""
 CANDIDATES: Final = 48
-IN_FRONT_M: Final = 0.15
+IN_FRONT_M: Final = 0.25
 """Targets stand at least this far ahead of the shoulders, where the patient sees them."""
 HIGHEST_M: Final = 0.15
 """Targets stand no higher than this above the shoulder: arms held overhead tire, and the eyes look ahead."""

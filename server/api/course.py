@@ -10,7 +10,7 @@ from fusion.skeleton import Side
 from games.catalogue import open_game
 from games.game import Game, GameInput, GameSettings, GameView, Workspace
 from server.api.live import SessionPhase, SessionView
-from server.messages import DemoGoal, DriveState, JointLimits, LiveTick
+from server.messages import DemoGoal, DriveState, JointLimits, LiveTick, Point
 
 _PHASES = {
     DriveState.OFF: SessionPhase.PREPARING,
@@ -92,15 +92,22 @@ def counted(picture: GameView | None) -> int:
 
 
 def goal(course: Course | None, tick: LiveTick) -> DemoGoal:
-    """Where the virtual patient's healthy hand should go: the mirror image of the target, or to rest."""
-    picture = None if course is None else course.picture
-    playing = picture is not None and picture.phase == "playing" and tick.state is DriveState.ENGAGED
-    target = picture.targets[0].position if picture is not None and playing and picture.targets else None
+    """Where the virtual patient's healthy hand should go, and where the exoskeleton holds the other."""
+    sought = None if course is None else _sought(course.picture, tick)
     return DemoGoal(
-        hand_in_trunk=None if target is None else (-target[0], target[1], target[2]),
+        hand_in_trunk=None if sought is None else (-sought[0], sought[1], sought[2]),
         healthy_side=tick.healthy_side if course is None else course.plan.affected_side.other,
         exo_rad=tick.exo.angle_rad,
     )
+
+
+def _sought(picture: GameView | None, tick: LiveTick) -> Point | None:
+    """What the healthy hand mirrors: the target, or the held arm, near which a movement may begin; None = rest."""
+    if picture is None:
+        return None
+    if tick.state is not DriveState.ENGAGED:
+        return tick.affected.points_in_trunk[-1]
+    return picture.targets[0].position if picture.phase == "playing" and picture.targets else None
 
 
 def _opened(plan: Plan, tick: LiveTick) -> Game:

@@ -126,6 +126,24 @@ class View3DShown(_Form):
     model_config = ConfigDict(extra="forbid", json_schema_extra={"examples": [{"sensors": True, "bounds": False}]})
 
 
+class View3DColours(BaseModel):
+    """What each colour of the 3-D view is, as #rrggbb."""
+
+    fused: str
+    mirrored: str
+    exoskeleton: str
+    bounds: str
+    sensors: list[str]
+    """In the order in which a tick names the sensors; begun again where there are more."""
+
+
+class View3DLook(BaseModel):
+    """How the 3-D view looks now."""
+
+    shown: View3DShown
+    colours: View3DColours
+
+
 class Answer(BaseModel):
     """What the station made of an accepted wish."""
 

@@ -22,7 +22,8 @@ _PASSED_ON = ("content-type", "cache-control")
 
 # viser's own panel and notices would cover much of a small view; the dashboard has switches of its own.
 _QUIET = b"""<style>
-.mantine-Notifications-root, .mantine-Paper-root[style*="position: absolute"] { display: none !important; }
+.mantine-Notifications-root, .mantine-Paper-root:is([style*="position: absolute"], [style*="position: fixed"])
+{ display: none !important; }
 </style></head>"""
 
 

@@ -79,7 +79,7 @@ def _show(server: viser.ViserServer, scene: Scene, tick: LiveTick, shown: Shown)
 def _place_camera(server: viser.ViserServer) -> None:
     """Before the person, a little to the side and above, as somebody beside the reference sensor sees them."""
     camera = server.initial_camera
-    camera.position = (-1.5, 0.9, -0.6)
-    camera.look_at = (0.0, -0.05, 1.9)
-    camera.fov = 0.8
+    camera.position = (-1.3, 0.65, -0.4)
+    camera.look_at = (-0.15, -0.2, 1.9)
+    camera.fov = 0.7
     camera.up = (0.0, 1.0, 0.0)

@@ -15,12 +15,16 @@ from server.messages import ArmView, LiveTick, SensorView
 
 Colour = tuple[int, int, int]
 
-SENSOR_COLOURS: tuple[Colour, ...] = ((214, 120, 40), (60, 140, 90), (150, 80, 170), (190, 160, 30))
-FUSED: Colour = (35, 60, 120)
+SENSOR_COLOURS: tuple[Colour, ...] = ((205, 70, 150), (40, 150, 70), (130, 80, 200), (150, 110, 30))
+"""Per sensor in the order of the tick; again from the first where there are more."""
+FUSED: Colour = (25, 45, 105)
 BOUND: Colour = (90, 140, 230)
-MIRRORED: Colour = (240, 170, 40)
-EXO: Colour = (30, 160, 200)
-FAINT = 0.35
+MIRRORED: Colour = (255, 150, 0)
+EXO: Colour = (0, 170, 205)
+FAINT = 0.45
+
+FUSED_M, SENSOR_M, EXO_M, MIRRORED_M = 0.016, 0.011, 0.03, 0.05
+"""Radii. The arm that is to be followed is a wide, pale sleeve round the exoskeleton's while both agree."""
 
 ARM_BONES = np.array([(0, 1), (1, 2), (2, 3)])
 NOWHERE = np.full((JOINT_COUNT, 3), np.nan, np.float32)
@@ -68,8 +72,9 @@ class _SensorFigure:
     def __init__(self, scene: viser.SceneApi, number: int, name: str) -> None:
         colour = SENSOR_COLOURS[number % len(SENSOR_COLOURS)]
         root = f"/sensors/{number}"
-        nothing = place_bones(NOWHERE, BONE_INDICES, 0.012)
-        self._bones = _Batch(scene, f"{root}/bones", _CYLINDER, nothing, colour, FAINT)
+        bones, joints = place_bones(NOWHERE, BONE_INDICES, SENSOR_M), place_balls(NOWHERE, 2 * SENSOR_M)
+        self._bones = _Batch(scene, f"{root}/bones", _CYLINDER, bones, colour, FAINT)
+        self._joints = _Batch(scene, f"{root}/joints", _BALL, joints, colour, FAINT)
         self._camera = scene.add_camera_frustum(
             f"{root}/camera", fov=pi / 3, aspect=1.2, scale=0.1, color=colour, visible=False
         )
@@ -77,8 +82,9 @@ class _SensorFigure:
 
     def show(self, sensor: SensorView, visible: bool) -> None:
         joints = as_array(sensor.joints_in_room) if sensor.joints_in_room else NOWHERE
-        self._bones.handle.visible = visible
-        self._bones.move(place_bones(joints, BONE_INDICES, 0.012))
+        self._bones.handle.visible = self._joints.handle.visible = visible
+        self._bones.move(place_bones(joints, BONE_INDICES, SENSOR_M))
+        self._joints.move(place_balls(joints, 2 * SENSOR_M))
         self._camera.visible = visible and sensor.position_in_room is not None
         if sensor.position_in_room is not None and np.isfinite(joints).any():
             position = np.array(sensor.position_in_room, np.float32)
@@ -104,28 +110,29 @@ class Scene:
         scene.configure_default_lights(cast_shadow=False)
         scene.add_light_ambient("/light", intensity=1.5)  # the default lights leave the side that faces us dark
         self._floor = scene.add_grid("/floor", 6.0, 6.0, plane="xz", position=(0.0, -1.0, 2.0), shadow_opacity=0.0)
-        self._bones = _Batch(scene, "/fused/bones", _CYLINDER, place_bones(NOWHERE, BONE_INDICES, 0.02), FUSED)
-        self._joints = _Batch(scene, "/fused/joints", _BALL, place_balls(NOWHERE, 0.028), FUSED)
+        self._bones = _Batch(scene, "/fused/bones", _CYLINDER, place_bones(NOWHERE, BONE_INDICES, FUSED_M), FUSED)
+        self._joints = _Batch(scene, "/fused/joints", _BALL, place_balls(NOWHERE, 1.5 * FUSED_M), FUSED)
         self._bounds = _Batch(scene, "/bounds", _BALL, place_balls(NOWHERE, 0.1), BOUND, 0.18)
-        self._mirrored = _Batch(scene, "/mirrored", _CYLINDER, place_bones(NO_ARM, ARM_BONES, 0.03), MIRRORED, 0.55)
-        self._exo = _Batch(scene, "/exoskeleton", _CYLINDER, place_bones(NO_ARM, ARM_BONES, 0.04), EXO)
+        sleeve = place_bones(NO_ARM, ARM_BONES, MIRRORED_M)
+        self._mirrored = _Batch(scene, "/mirrored", _CYLINDER, sleeve, MIRRORED, 0.4)
+        self._exo = _Batch(scene, "/exoskeleton", _CYLINDER, place_bones(NO_ARM, ARM_BONES, EXO_M), EXO)
         self._sensors: dict[str, _SensorFigure] = {}
 
     def show(self, tick: LiveTick, shown: Shown) -> None:
         """Move everything to where the tick says. Call it inside `atomic()`, so that no page sees half of it."""
-        for sensor in tick.sensors:
-            self._figure(sensor.sensor).show(sensor, shown.sensors)
+        for number, sensor in enumerate(tick.sensors):
+            self._figure(number, sensor.sensor).show(sensor, shown.sensors)
         joints = NOWHERE if tick.body is None else as_array(tick.body.joints_in_room)
-        self._bones.move(place_bones(joints, BONE_INDICES, 0.02))
-        self._joints.move(place_balls(joints, 0.028))
+        self._bones.move(place_bones(joints, BONE_INDICES, FUSED_M))
+        self._joints.move(place_balls(joints, 1.5 * FUSED_M))
         self._show_bounds(tick, joints, shown.bounds)
-        self._mirrored.move(place_bones(_points(tick.target), ARM_BONES, 0.03))
-        self._exo.move(place_bones(_points(tick.affected), ARM_BONES, 0.04))
+        self._mirrored.move(place_bones(_points(tick.target), ARM_BONES, MIRRORED_M))
+        self._exo.move(place_bones(_points(tick.affected), ARM_BONES, EXO_M))
         self._lay_floor(joints)
 
-    def _figure(self, sensor: str) -> _SensorFigure:
+    def _figure(self, number: int, sensor: str) -> _SensorFigure:
         if sensor not in self._sensors:
-            self._sensors[sensor] = _SensorFigure(self._scene, len(self._sensors), sensor)
+            self._sensors[sensor] = _SensorFigure(self._scene, number, sensor)
         return self._sensors[sensor]
 
     def _show_bounds(self, tick: LiveTick, joints: Array, visible: bool) -> None:

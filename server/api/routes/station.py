@@ -7,17 +7,37 @@ from fastapi import APIRouter
 from games.catalogue import GAMES
 from server.api.deps import AccountDep, ServiceDep
 from server.api.errors import answers
-from server.api.forms import GamePublic, Station, View3DShown
+from server.api.forms import GamePublic, Station, View3DColours, View3DLook, View3DShown
 from server.api.service import describe_station
-from server.api.view3d_scene import Shown
+from server.api.view3d_scene import BOUND, EXO, FUSED, MIRRORED, SENSOR_COLOURS, Colour, Shown
 
 router = APIRouter(tags=["station"])
+
+
+def _written(colour: Colour) -> str:
+    return "#{:02x}{:02x}{:02x}".format(*colour)
+
+
+COLOURS = View3DColours(
+    fused=_written(FUSED),
+    mirrored=_written(MIRRORED),
+    exoskeleton=_written(EXO),
+    bounds=_written(BOUND),
+    sensors=[_written(colour) for colour in SENSOR_COLOURS],
+)
 
 
 @router.get("/station", responses=answers(401, 503))
 async def read_station(_: AccountDep, service: ServiceDep) -> Station:
     """Ports, drive, state and latencies of the real-time side."""
     return describe_station(service)
+
+
+@router.get("/view3d", responses=answers(401, 503))
+def read_view3d(_: AccountDep, service: ServiceDep) -> View3DLook:
+    """What the 3-D view shows, and in which colours."""
+    shown = service.view3d.shown
+    return View3DLook(shown=View3DShown(sensors=shown.sensors, bounds=shown.bounds), colours=COLOURS)
 
 
 @router.put("/view3d", responses=answers(401, 422, 503))

@@ -99,7 +99,8 @@ def test_the_games_clock_stands_still_while_the_arm_is_held(course):
     assert course.step(tick(12.2, DriveState.ENGAGED)).time_left_s < before.time_left_s
 
 
-def test_the_goal_is_the_targets_mirror_image_and_rest_otherwise(course):
+def test_the_goal_is_the_mirror_image_of_the_target_or_of_the_held_arm_and_rest_otherwise(course):
+    assert goal(course, tick(10.0, DriveState.READY)).hand_in_trunk is None
     course.step(tick(10.1, DriveState.ENGAGED))
     for k in range(20):
         engaged = tick(10.2 + k / 50, DriveState.ENGAGED)
@@ -107,5 +108,7 @@ def test_the_goal_is_the_targets_mirror_image_and_rest_otherwise(course):
     target = picture.targets[0].position
     assert goal(course, engaged).hand_in_trunk == (-target[0], target[1], target[2])
     assert goal(course, engaged).healthy_side is Side.RIGHT
-    assert goal(course, tick(11.0, DriveState.HOLD)).hand_in_trunk is None
+    held = tick(11.0, DriveState.HOLD)
+    x, y, z = held.affected.points_in_trunk[-1]
+    assert goal(course, held).hand_in_trunk == (-x, y, z)
     assert goal(None, engaged).hand_in_trunk is None

@@ -72,6 +72,7 @@ export const control = (id: number, action: Action) =>
 export const endSession = (id: number, painAfter: number | null) =>
   taken(http.POST("/api/sessions/{session_id}/end", { ...session(id), body: { pain_after: painAfter } }));
 
+export const readView3d = () => taken(http.GET("/api/view3d"));
 export const showInView3d = (shown: View3dShown) => taken(http.PUT("/api/view3d", { body: shown }));
 
 export const readStation = () => taken(http.GET("/api/station"));

@@ -399,7 +399,11 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        get?: never;
+        /**
+         * Read View3D
+         * @description What the 3-D view shows, and in which colours.
+         */
+        get: operations["read_view3d_api_view3d_get"];
         /**
          * Show In View3D
          * @description Choose what the 3-D view shows, for everybody who looks.
@@ -1366,6 +1370,30 @@ export interface components {
             recorder_dropped: number;
             tick_s: number;
             ticks_dropped: number;
+        };
+        /**
+         * View3DColours
+         * @description What each colour of the 3-D view is, as #rrggbb.
+         */
+        View3DColours: {
+            /** Bounds */
+            bounds: string;
+            /** Exoskeleton */
+            exoskeleton: string;
+            /** Fused */
+            fused: string;
+            /** Mirrored */
+            mirrored: string;
+            /** Sensors */
+            sensors: string[];
+        };
+        /**
+         * View3DLook
+         * @description How the 3-D view looks now.
+         */
+        View3DLook: {
+            colours: components["schemas"]["View3DColours"];
+            shown: components["schemas"]["View3DShown"];
         };
         /**
          * View3DShown
@@ -2475,6 +2503,44 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Status"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
+    read_view3d_api_view3d_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["View3DLook"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
                 };
             };
             /** @description Something this machine must provide is missing */

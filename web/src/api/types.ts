@@ -26,6 +26,7 @@ export type Screen = Schemas["Screen"];
 export type Side = Schemas["Side"];
 export type Station = Schemas["Station"];
 export type Status = Schemas["Status"];
+export type View3dLook = Schemas["View3DLook"];
 export type View3dShown = Schemas["View3DShown"];
 
 /** The exoskeleton's joints, in the order in which the service lists their values. */

@@ -23,8 +23,6 @@ export class Overlay {
     this.title = child(this.panel, "h1", "title");
     this.text = child(this.panel, "p", "text");
     this.reason = child(this.panel, "p", "reason");
-    // The station gives its reasons in English.
-    this.reason.lang = "en";
     this.login = child(this.panel, "a", "login");
     this.login.href = "/";
     this.breath = child(root, "div", "breath");
@@ -36,14 +34,14 @@ export class Overlay {
     this.countdown.dataset.testid = "countdown";
   }
 
-  /** Shows the face; `reason` is the station's own sentence for it, if there is one. */
-  show(face: Face, game: GameView | null, reason: string, now_s: number): void {
+  /** Shows the face; `reason` is a further sentence for it, if there is one. */
+  show(face: Face, game: GameView | null, reason: Key | null, now_s: number): void {
     this.root.hidden = face === "playing";
     this.root.dataset.face = face;
     if (face === "playing") return;
     setText(this.title, t(`play.${face}.title`));
     setText(this.text, t(`play.${face}.text`, { hits: game?.hits ?? 0, score: game?.score ?? 0 }));
-    setText(this.reason, givesReason(face) ? reason : "");
+    setText(this.reason, reason ? t(reason) : "");
     setText(this.login, face === "locked" ? t("play.locked.link") : "");
     this.showRest(face === "rest", game, now_s);
   }
@@ -62,8 +60,4 @@ export class Overlay {
 /** How full the lungs are, 0..1, at a moment. */
 export function breathFullness(now_s: number): number {
   return (1 - Math.cos((2 * Math.PI * now_s) / BREATH_S)) / 2;
-}
-
-function givesReason(face: Face): boolean {
-  return face === "paused" || face === "stopped" || face === "fault";
 }

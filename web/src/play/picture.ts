@@ -10,6 +10,7 @@ import { Limbs } from "./limbs";
 import { Orchard } from "./orchard";
 import { Overlay } from "./overlay";
 import { Pace } from "./pace";
+import { reasonFor } from "./reason";
 import { type Access, type Face, faceFor } from "./screen";
 import type { Cue, Sound } from "./sound";
 import { Stage } from "./stage";
@@ -72,7 +73,7 @@ export class Picture {
     const hand = this.limbs.animate(now_s);
     this.animate(face, dt_s, hand);
     this.hud.show(this.game);
-    this.overlay.show(face, this.game, this.newest?.tick.reason ?? "", now_s);
+    this.overlay.show(face, this.game, reasonFor(face, this.newest?.tick), now_s);
     this.stage.render();
     if (this.pace.frame(now_s)) this.stage.coarsen();
     this.mark(face, hand);

@@ -15,8 +15,12 @@ test("blanks are carried over", () => {
   expect(inChinese("Li's affected side is the left, not the right")).toContain("Li");
 });
 
-test("a sentence inside a sentence is said in Chinese too", () => {
-  expect(inChinese("No sensor sees the patient now; a person resumes")).toBe("目前没有传感器看到患者；请由人按“继续”");
+test("each of several sentences is said in Chinese", () => {
+  expect(inChinese("No sensor sees the patient now. A person resumes")).toBe("目前没有传感器看到患者；请由人按“继续”");
+});
+
+test("angles are said in degrees", () => {
+  expect(said("(elbow by 1.1 rad); bring it near.")).toBe("(elbow by 63°); bring it near");
 });
 
 test("an unknown sentence is not lost", () => {

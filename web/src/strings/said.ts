@@ -14,8 +14,8 @@ const CHINESE: readonly [RegExp, string][] = [
   [/^the healthy arm is not seen well enough to follow$/, "健侧手臂看得不够清楚，无法跟随"],
   [/^the healthy arm's position is too uncertain$/, "健侧手臂的位置不够确定"],
   [
-    /^the healthy arm is too far from where the exoskeleton holds the other \((\w+) by ([\d.]+) rad\); bring it near$/,
-    "健侧手臂与外骨骼所处位置相差太远（{1}差 {2} rad），请靠近",
+    /^the healthy arm is too far from where the exoskeleton holds the other \((\w+) by ([\d.]+)°\); bring it near$/,
+    "健侧手臂与外骨骼所处位置相差太远（{1}差 {2}°），请靠近",
   ],
   [
     /^the exoskeleton's (\w+) stands outside the patient's range; move it by hand$/,
@@ -28,7 +28,7 @@ const CHINESE: readonly [RegExp, string][] = [
   [/^the service is silent; nobody could be heard$/, "服务没有响应，无法接收操作"],
   [/^the control loop stood still for ([\d.]+) s$/, "控制回路停顿了 {1} 秒"],
   [/^the last session is still being closed; try again in a moment$/, "上次治疗仍在关闭，请稍后再试"],
-  [/^(.*); a person resumes$/, "{1}；请由人按“继续”"],
+  [/^a person resumes$/, "请由人按“继续”"],
   [/^(.+) pressed stop$/, "{1} 按了“停止”"],
   [/^(.+) pressed hold$/, "{1} 按了“暂停”"],
   [/^(\w+): at the end of its range$/, "{1}：已到范围尽头"],
@@ -71,13 +71,28 @@ const CHINESE: readonly [RegExp, string][] = [
   [/^ended by (.+)$/, "由 {1} 结束"],
 ];
 
-/** The service's sentence in the language chosen, without its full stop. */
-export function said(sentence: string): string {
-  const plain = sentence.replace(/\.$/, "");
+/** As the station's own sentences begin; a full stop alone may belong to "Dr.". */
+const NEXT_SENTENCE = /\.\s+(?=(?:A|No|Nobody|The)\s)/;
+
+/** What the service says, one sentence or several, in the language chosen and without the last full stop. */
+export function said(words: string): string {
+  const plain = inDegrees(words).replace(/\.$/, "");
   return language() === "zh" ? inChinese(plain) : plain;
 }
 
+/** The station reckons in radians, people do not. */
+function inDegrees(words: string): string {
+  return words.replace(
+    /(\d+(?:\.\d+)?) rad\b/g,
+    (_, angle: string) => `${Math.round((Number(angle) * 180) / Math.PI)}°`,
+  );
+}
+
 export function inChinese(plain: string): string {
+  return plain.split(NEXT_SENTENCE).map(oneInChinese).join("；");
+}
+
+function oneInChinese(plain: string): string {
   for (const [pattern, chinese] of CHINESE) {
     const found = new RegExp(pattern, "i").exec(plain);
     if (found) return chinese.replace(/\{(\d)\}/g, (_, blank: string) => word(found[Number(blank)] ?? ""));

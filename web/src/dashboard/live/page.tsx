@@ -59,7 +59,7 @@ function Live({ session }: { session: Session }) {
         <Controls feed={feed} pending={wishes.busy ? pressed : null} onWish={wish} />
       </StateBanner>
       <div class={view3d.isShown ? "live-main" : "live-main live-main-flat"}>
-        {view3d.isShown && <View3d onLoad={alsoListenIn} />}
+        {view3d.isShown && <View3d feed={feed} onLoad={alsoListenIn} />}
         <div class="live-curves">
           <LiveCurve feed={feed} first="elevation" />
           <LiveCurve feed={feed} first="elbow" />

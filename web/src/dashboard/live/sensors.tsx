@@ -86,7 +86,7 @@ function NoSensor() {
   return (
     <div>
       <h3>{t("sensor.none")}</h3>
-      <p>{t("sensor.none.what", { host: location.hostname })}</p>
+      <p>{t("sensor.none.what")}</p>
       <p class="row small">
         {ports.map(([dialect, port]) => (
           <span key={dialect}>

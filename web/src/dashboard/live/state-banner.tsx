@@ -8,13 +8,14 @@ import { type BannerState, StateSign } from "./state-sign";
 export function StateBanner({ feed, children }: { feed: Feed; children: preact.ComponentChildren }) {
   const shown = useFromFeed(feed, 15, faceOf);
   const { state, reasons } = JSON.parse(shown) as Face;
+  const word = isBlocked(state, reasons) ? "waiting" : state;
   return (
-    <section class={`state state-${state}`} aria-live="assertive">
-      <div class="state-said">
+    <section class={`state state-${word}`}>
+      <div class="state-said" aria-live="assertive">
         <StateSign state={state} />
         <div>
           <div class="state-word" data-testid="state" data-state={state}>
-            {t(`state.${state}`)}
+            {t(`state.${word}`)}
           </div>
           <div class="state-reason">{[...reasons.map(asSentence), ...nextOf(state, reasons)].join("")}</div>
         </div>
@@ -32,8 +33,13 @@ interface Face {
 
 /** What to do next; where something is missing, its own words have said that already. */
 function nextOf(state: Face["state"], reasons: readonly string[]): string[] {
-  const isWaiting = (state === "ready" || state === "off") && reasons.length > 0;
-  return isWaiting ? [] : [t(`state.${state}.next`)];
+  const isSaid = isBlocked(state, reasons) || (state === "off" && reasons.length > 0);
+  return isSaid ? [] : [t(`state.${state}.next`)];
+}
+
+/** Ready says the station of itself also while it would refuse Start. */
+function isBlocked(state: Face["state"], reasons: readonly string[]): boolean {
+  return state === "ready" && reasons.length > 0;
 }
 
 /** The banner as text, so that it is drawn again only when it says something else. */

@@ -1,15 +1,22 @@
 // The 3-D view of sensors, body and exoskeleton; may be put away, because drawing it without a graphics card takes the
 // better part of a small computer.
-import { useEffect, useRef, useState } from "preact/hooks";
-import { showInView3d } from "../../api/client";
-import type { View3dShown } from "../../api/types";
+import { useRef, useState } from "preact/hooks";
+import { readView3d, showInView3d } from "../../api/client";
+import type { View3dLook, View3dShown } from "../../api/types";
 import { t } from "../../strings";
+import { useAsked } from "../hooks";
+import { type Feed, useFromFeed } from "./feed";
 
 const VIEW_PAGE = "/view3d/";
 const REMEMBERED_AS = "mirrorlimb.view3d";
 const AWAY = "away";
 
-export function View3d({ onLoad }: { onLoad: (inside: Window | null) => void }) {
+interface Props {
+  feed: Feed;
+  onLoad: (inside: Window | null) => void;
+}
+
+export function View3d({ feed, onLoad }: Props) {
   const frame = useRef<HTMLIFrameElement>(null);
   return (
     <div class="view3d">
@@ -20,23 +27,74 @@ export function View3d({ onLoad }: { onLoad: (inside: Window | null) => void }) 
         onLoad={() => onLoad(frame.current?.contentWindow ?? null)}
         data-testid="view3d"
       />
-      <Layers />
+      <Look feed={feed} />
     </div>
   );
 }
 
+/** Legend and switches; without them the view is still a view, and a lost service is said by the page's banner. */
+function Look({ feed }: { feed: Feed }) {
+  const look = useAsked(readView3d, "look").value;
+  const [chosen, setChosen] = useState<View3dShown | null>(null);
+  if (!look) return null;
+  const shown = chosen ?? look.shown;
+  const change = (wanted: View3dShown) => {
+    setChosen(wanted);
+    showInView3d(wanted).catch(() => undefined);
+  };
+  return (
+    <>
+      <Legend feed={feed} shown={shown} colours={look.colours} />
+      <Layers shown={shown} onChange={change} />
+    </>
+  );
+}
+
+interface LegendProps {
+  feed: Feed;
+  shown: View3dShown;
+  colours: View3dLook["colours"];
+}
+
+/** What each colour is. */
+function Legend({ feed, shown, colours }: LegendProps) {
+  const names = useFromFeed(feed, 2, ({ newest }) => newest?.tick.sensors.map(({ sensor }) => sensor).join("\n") ?? "");
+  const sensors = shown.sensors && names ? names.split("\n") : [];
+  const colourOf = (number: number) => colours.sensors[number % colours.sensors.length] ?? "";
+  return (
+    <ul class="view3d-legend" data-testid="view3d-legend">
+      <Entry colour={colours.fused} words={t("live.view3d.fused")} />
+      <Entry colour={colours.mirrored} words={t("live.view3d.mirrored")} />
+      <Entry colour={colours.exoskeleton} words={t("live.view3d.exoskeleton")} />
+      {shown.bounds && <Entry colour={colours.bounds} words={t("live.view3d.bound")} />}
+      {sensors.map((sensor, number) => (
+        <Entry key={sensor} colour={colourOf(number)} words={sensor} />
+      ))}
+    </ul>
+  );
+}
+
+function Entry({ colour, words }: { colour: string; words: string }) {
+  return (
+    <li>
+      <span class="view3d-colour" style={{ background: colour }} />
+      {words}
+    </li>
+  );
+}
+
+interface LayersProps {
+  shown: View3dShown;
+  onChange: (shown: View3dShown) => void;
+}
+
 /** What is drawn besides the body and the exoskeleton; the same for everybody who looks. */
-function Layers() {
-  const [shown, setShown] = useState<View3dShown>({ sensors: true, bounds: false });
-  useEffect(() => {
-    // A view without its switches is still a view; a lost service is said by the page's banner.
-    showInView3d(shown).catch(() => undefined);
-  }, [shown]);
+function Layers({ shown, onChange }: LayersProps) {
   const layer = (name: keyof View3dShown) => (
     <button
       type="button"
       aria-pressed={shown[name]}
-      onClick={() => setShown({ ...shown, [name]: !shown[name] })}
+      onClick={() => onChange({ ...shown, [name]: !shown[name] })}
       data-testid={`view3d-${name}`}
     >
       {shown[name] ? "✓ " : ""}

@@ -1,0 +1,28 @@
+import { describe, expect, it } from "vitest";
+import { reasonFor } from "./reason";
+
+const held = (reason: string) => ({ reason, blockers: [] });
+
+describe("reasonFor", () => {
+  it.each([
+    ["wang pressed hold", "play.reason.person"],
+    ["No sensor sees the patient now.", "play.reason.unseen"],
+    ["The healthy arm is not seen well enough to follow. A person resumes.", "play.reason.unseen"],
+    ["The healthy arm's position is too uncertain.", "play.reason.unseen"],
+    ["The service is silent; nobody could be heard.", null],
+  ])("says of a hold because of %j %s", (reason, key) => {
+    expect(reasonFor("paused", held(reason))).toBe(key);
+  });
+
+  it("tells how to become ready", () => {
+    const blockers = [
+      "The healthy arm is too far from where the exoskeleton holds the other (elbow by 1.1 rad); bring it near.",
+    ];
+    expect(reasonFor("ready", { reason: "", blockers })).toBe("play.reason.apart");
+  });
+
+  it("leaves faults and stops to the therapist", () => {
+    expect(reasonFor("fault", held("The elbow was measured outside the patient's range."))).toBeNull();
+    expect(reasonFor("stopped", held("wang pressed stop"))).toBeNull();
+  });
+});

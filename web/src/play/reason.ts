@@ -1,0 +1,18 @@
+// Why the arm waits, as far as it helps a patient: the station's own sentences are technical and English.
+import type { LiveTick } from "../api/types";
+import type { Key } from "../strings";
+import type { Face } from "./screen";
+
+/** What the station's sentence is about; the first that fits. */
+const ABOUT: readonly [RegExp, Key][] = [
+  [/pressed hold/i, "play.reason.person"],
+  [/too far from/i, "play.reason.apart"],
+  [/no sensor sees|not seen well|too uncertain/i, "play.reason.unseen"],
+];
+
+/** A sentence for the patient, or null where the face says all that they need to know. */
+export function reasonFor(face: Face, tick: Pick<LiveTick, "reason" | "blockers"> | undefined): Key | null {
+  if (!tick || (face !== "paused" && face !== "ready")) return null;
+  const words = face === "paused" ? tick.reason : tick.blockers.join(" ");
+  return ABOUT.find(([pattern]) => pattern.test(words))?.[1] ?? null;
+}
