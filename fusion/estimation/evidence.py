@@ -30,9 +30,11 @@ DOUBTED_HALF_WIDTH_M: Final = np.array((0.6, 0.6, 0.6))
 class Evidence:
     """One sample, ready to be used."""
 
-    positions: Floats  # (J, 3) m in room
+    positions: Floats  # (J, 3) m in room, as measured
+    unbiased: Floats  # (J, 3) m, less what this sensor always says differently from the others
     believed: Flags  # (J,)
     unchecked: Flags  # (J,) believed where nobody was lately: the gate has nothing to judge by
+    shared: Flags  # (J,) believed, and so was another sensor lately
     used: Flags  # (J,)
     outvoted: Flags  # (J,) in doubt, disagreeing, and another sensor is sure
     wandering: Flags  # (J,) a bone's length is wrong
@@ -41,21 +43,34 @@ class Evidence:
 
 
 def weigh(
-    sample: AlignedSample, own: SensorTrust, others: tuple[SensorTrust, ...], track: Track
+    sample: AlignedSample, own: SensorTrust, others: tuple[SensorTrust, ...], track: Track, offset_m: Floats
 ) -> tuple[Evidence, SensorTrust]:
-    """Weigh one sample against its sensor's past, the other sensors and the predicted track."""
+    """Weigh one sample against its sensor's past, the other sensors and the predicted track.
+
+    `offset_m` (J, 3) is the sensor's learnt bias: the point is moved by what is left, the set by what was measured.
+    """
     t_s = track.t_s
     measured = read(sample)
     verdict, learnt = trust.judge(own, t_s, measured)
     positions = carried_on(track, measured.positions, sample.t_s)
+    unbiased = positions - offset_m
     surely = trust.believed_lately(others, t_s)
-    agreeing = verdict.doubted & surely & (np.linalg.norm(positions - track.position, axis=1) < AGREES_WITHIN_M)
+    agreeing = verdict.doubted & surely & (np.linalg.norm(unbiased - track.position, axis=1) < AGREES_WITHIN_M)
     outvoted = verdict.doubted & surely & ~agreeing
     std_m = np.where(verdict.believed, BELIEVED_STD_M, np.where(agreeing, AGREEING_STD_M, DOUBTED_STD_M))
     half_width = _half_width(sample, measured, verdict.believed) + SPEED_MAX * max(t_s - sample.t_s, 0.0)
-    unchecked = verdict.believed & ~surely & ~trust.believed_lately((own,), t_s)
-    used = measured.given & ~outvoted
-    evidence = Evidence(positions, verdict.believed, unchecked, used, outvoted, verdict.wandering, std_m**2, half_width)
+    evidence = Evidence(
+        positions=positions,
+        unbiased=unbiased,
+        believed=verdict.believed,
+        unchecked=verdict.believed & ~surely & ~trust.believed_lately((own,), t_s),
+        shared=verdict.believed & surely,
+        used=measured.given & ~outvoted,
+        outvoted=outvoted,
+        wandering=verdict.wandering,
+        variance=std_m**2,
+        half_width=half_width,
+    )
     return evidence, learnt
 
 

@@ -12,7 +12,7 @@ from typing import ClassVar, Final
 
 import numpy as np
 
-from fusion.estimation import ball, gated_filter, motion_set, refusals, trust
+from fusion.estimation import ball, bias, gated_filter, motion_set, refusals, trust
 from fusion.estimation.estimator import Estimator
 from fusion.estimation.evidence import Evidence, weigh
 from fusion.estimation.freshness import LOST_AFTER_S, TOO_OLD_S, state_of
@@ -35,6 +35,7 @@ class SetState:
     track: Track
     motion: MotionSet
     sensors: tuple[SensorTrust, ...]
+    biases: bias.Biases
     worst_innovation_m: Floats  # (J,)
     refused_since_s: Floats  # (J,) when the present row of refusals began; +inf when there is none
     latest: refusals.Latest
@@ -48,7 +49,7 @@ class SetMembership(Estimator):
     def __init__(self) -> None:
         none = np.full(JOINT_COUNT, np.inf)
         nothing = gated_filter.unseen(-np.inf)
-        self._state = SetState(nothing, motion_set.anywhere(-np.inf), (), ball.start(), none, ())
+        self._state = SetState(nothing, motion_set.anywhere(-np.inf), (), (), ball.start(), none, ())
 
     def update(self, sample: AlignedSample) -> tuple[Refusal, ...]:
         """Judge the sample, cut the set with what is believed of it, and move the point."""
@@ -92,18 +93,20 @@ def _take(state: SetState, sample: AlignedSample) -> tuple[SetState, tuple[Refus
     track = gated_filter.predict(state.track, sample.t_s)
     motion = motion_set.move(state.motion, sample.t_s)
     own, others = trust.split(state.sensors, sample.sensor)
-    evidence, own = weigh(sample, own, others, track)
+    evidence, own = weigh(sample, own, others, track, bias.offset_of(state.biases, sample.sensor))
     fit = _fit(state, track, motion, evidence)
-    innovation_m = np.linalg.norm(evidence.positions - track.position, axis=1)
+    innovation_m = np.linalg.norm(evidence.unbiased - track.position, axis=1)
     worst_m = ball.learn(
         state.worst_innovation_m, innovation_m, fit.taken & evidence.believed, track.t_s - state.track.t_s
     )
     refused = _refusals(sample.sensor, evidence, fit)
     latest = refusals.remember(state.latest, sample.sensor, sample.t_s, refused)
     own = trust.believe(own, track.t_s, (fit.taken | fit.begun) & evidence.believed)
+    difference_m = evidence.positions - track.position
+    biases = bias.learn(state.biases, sample.sensor, track.t_s, difference_m, evidence.shared & fit.taken & fit.near)
     track = _corrected(track, evidence, fit)
     motion = motion_set.begin(fit.motion, evidence.positions, evidence.half_width, fit.begun)
-    return SetState(track, motion, (*others, own), worst_m, fit.refused_since_s, latest), refused
+    return SetState(track, motion, (*others, own), biases, worst_m, fit.refused_since_s, latest), refused
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,7 +121,7 @@ class Fit:
 
 
 def _fit(state: SetState, track: Track, motion: MotionSet, evidence: Evidence) -> Fit:
-    near = evidence.used & (gated_filter.sigmas_off(track, evidence.positions, evidence.variance) <= GATE_SIGMA)
+    near = evidence.used & (gated_filter.sigmas_off(track, evidence.unbiased, evidence.variance) <= GATE_SIGMA)
     motion, met = motion_set.take(motion, evidence.positions, evidence.half_width, near | evidence.unchecked)
     since_s = np.where(evidence.used, np.minimum(state.refused_since_s, track.t_s), state.refused_since_s)
     since_s = np.where(met, np.inf, since_s)
@@ -129,9 +132,9 @@ def _fit(state: SetState, track: Track, motion: MotionSet, evidence: Evidence) -
 
 def _corrected(track: Track, evidence: Evidence, fit: Fit) -> Track:
     """Take what is near; start anew where the joint is begun, or where it was not near and nothing spoke against it."""
-    corrected = gated_filter.correct(track, evidence.positions, evidence.variance, fit.taken & fit.near)
+    corrected = gated_filter.correct(track, evidence.unbiased, evidence.variance, fit.taken & fit.near)
     anew = fit.begun | (fit.taken & ~fit.near)
-    return gated_filter.start(corrected, evidence.positions, evidence.variance, anew)
+    return gated_filter.start(corrected, evidence.unbiased, evidence.variance, anew)
 
 
 def _refusals(sensor: str, evidence: Evidence, fit: Fit) -> tuple[Refusal, ...]:
