@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fastapi import APIRouter
 
-from db.patient import Patient, PatientCreate, PatientPublic, PatientUpdate
+from db.patient import PassiveRange, Patient, PatientCreate, PatientPublic, PatientUpdate
 from db.queries import patients, sessions
 from db.therapy_session import SessionDetail
 from server.api.deps import AccountDep, SessionDep
@@ -23,6 +23,12 @@ def list_patients(_: AccountDep, session: SessionDep) -> list[PatientPublic]:
 def enrol_patient(form: PatientCreate, account: AccountDep, session: SessionDep) -> PatientPublic:
     """Enrol a patient."""
     return _public(patients.add_patient(session, form, account.id or 0))
+
+
+@router.get("/cautious-range", responses=answers(401, 503))
+def read_cautious_range(_: AccountDep) -> PassiveRange:
+    """What a form for a new patient begins with: within what a relaxed adult arm allows."""
+    return PassiveRange()
 
 
 @router.get("/{patient_id}", responses=answers(401, 404, 422, 503))

@@ -59,6 +59,7 @@ export const readPatient = (id: number) =>
 export const enrolPatient = (form: PatientForm) => taken(http.POST("/api/patients", { body: form }));
 export const changePatient = (id: number, form: PatientForm) =>
   taken(http.PATCH("/api/patients/{patient_id}", { params: { path: { patient_id: id } }, body: form }));
+export const readCautiousRange = () => taken(http.GET("/api/patients/cautious-range"));
 export const readHistory = (id: number) =>
   taken(http.GET("/api/patients/{patient_id}/sessions", { params: { path: { patient_id: id } } }));
 

@@ -2,7 +2,9 @@ import { describe, expect, test } from "vitest";
 import type { Patient } from "../../api/types";
 import { draftOf, emptyDraft, formOf, rangeDeg } from "./draft";
 
-const complete = () => ({ ...emptyDraft(), name: " Li ", healthySide: "left" as const });
+const joint = { min_rad: 0, max_rad: (135 * Math.PI) / 180 };
+const range = { plane: joint, elevation: joint, rotation: joint, elbow: joint };
+const complete = () => ({ ...emptyDraft(range), name: " Li ", healthySide: "left" as const });
 
 describe("a patient's form", () => {
   test("cannot be sent without a name or a healthy side", () => {

@@ -14,30 +14,19 @@ export interface Draft {
   range: Record<Joint, RangeDraft>;
 }
 
-/** What a relaxed adult arm allows, cautiously: the same as `PassiveRange` in the service. */
-const CAUTIOUS_DEG: Record<Joint, readonly [number, number]> = {
-  plane: [-20, 120],
-  elevation: [0, 100],
-  rotation: [-60, 80],
-  elbow: [0, 135],
-};
-
 export const LARGEST_DEG = 180;
 
-export function emptyDraft(): Draft {
-  return { name: "", healthySide: null, notes: "", range: eachJoint((joint) => asText(...CAUTIOUS_DEG[joint])) };
+/** A form for somebody of whom only the range to begin with is known. */
+export function emptyDraft(range: PassiveRange): Draft {
+  return { name: "", healthySide: null, notes: "", range: asDrafts(range) };
 }
 
 export function draftOf(patient: Patient): Draft {
-  const known = patient.passive_range;
   return {
     name: patient.name,
     healthySide: patient.healthy_side,
     notes: patient.notes,
-    range: eachJoint((joint) => {
-      const range = known?.[joint];
-      return range ? asText(degrees(range.min_rad), degrees(range.max_rad)) : asText(...CAUTIOUS_DEG[joint]);
-    }),
+    range: asDrafts(patient.passive_range),
   };
 }
 
@@ -66,8 +55,12 @@ export function formOf(draft: Draft): PatientForm | null {
   };
 }
 
-function asText(min: number, max: number): RangeDraft {
-  return { min: String(Math.round(min)), max: String(Math.round(max)) };
+function asDrafts(range: PassiveRange | undefined): Record<Joint, RangeDraft> {
+  return eachJoint((joint) => ({ min: inDegrees(range?.[joint]?.min_rad), max: inDegrees(range?.[joint]?.max_rad) }));
+}
+
+function inDegrees(angleRad: number | undefined): string {
+  return angleRad === undefined ? "" : String(Math.round(degrees(angleRad)));
 }
 
 function eachJoint<T>(make: (joint: Joint) => T): Record<Joint, T> {

@@ -1,27 +1,24 @@
 // Enrolling a patient, and changing what is known of one.
 import { useState } from "preact/hooks";
-import { changePatient, enrolPatient, readPatient } from "../../api/client";
+import { changePatient, enrolPatient, readCautiousRange, readPatient } from "../../api/client";
 import { JOINTS, type Joint, otherSide, type Patient, type PatientForm, type Side } from "../../api/types";
 import { t } from "../../strings";
-import { useAsked, useDoing } from "../hooks";
+import { type Asked, useAsked, useDoing } from "../hooks";
 import { ProblemBox } from "../problem";
 import { go, hrefOf } from "../route";
 import { type Draft, draftOf, emptyDraft, formOf, LARGEST_DEG, type RangeDraft, rangeDeg } from "./draft";
 import { RangePicture } from "./range-picture";
 
 export function EnrolPatient() {
-  return <Form title={t("patient.new")} first={emptyDraft()} send={enrolPatient} back={hrefOf({ page: "patients" })} />;
+  const range = useAsked(readCautiousRange, "range");
+  if (!range.value) return <NotYet asked={range} />;
+  const first = emptyDraft(range.value);
+  return <Form title={t("patient.new")} first={first} send={enrolPatient} back={hrefOf({ page: "patients" })} />;
 }
 
 export function ChangePatient({ id }: { id: number }) {
   const patient = useAsked(() => readPatient(id), id);
-  if (!patient.value) {
-    return (
-      <main class="page">
-        <ProblemBox problem={patient.problem} onRetry={patient.again} />
-      </main>
-    );
-  }
+  if (!patient.value) return <NotYet asked={patient} />;
   return (
     <Form
       title={patient.value.name}
@@ -29,6 +26,14 @@ export function ChangePatient({ id }: { id: number }) {
       send={(form) => changePatient(id, form)}
       back={hrefOf({ page: "patient", id })}
     />
+  );
+}
+
+function NotYet({ asked }: { asked: Asked<unknown> }) {
+  return (
+    <main class="page">
+      <ProblemBox problem={asked.problem} onRetry={asked.again} />
+    </main>
   );
 }
 
