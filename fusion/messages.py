@@ -182,5 +182,5 @@ class PipelineFrame:
     healthy: JointAngles | None = None
     target: MirrorTarget | None = None
     newest_received_s: float = float("nan")
-    """Receive time of the newest sample in this frame; NaN when none has come yet."""
+    """Receive time of the newest sample that reached the body; NaN when none has yet."""
     warnings: tuple[str, ...] = field(default=())

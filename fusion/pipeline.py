@@ -80,7 +80,6 @@ class Pipeline:
         """Take one body of one frame; samples of different sensors may come in any order."""
         watch = self._watch(sample.sensor)
         t_s = watch.receive(sample)
-        self._newest_received_s = float(np.fmax(self._newest_received_s, sample.t_received_s))
         if not self._patient.is_patient(sample, t_s, lambda: self._expected(watch, t_s)):
             watch.refusals["another person"] += 1
             return
@@ -93,6 +92,8 @@ class Pipeline:
         refused = self._body.take(mended)
         self._account(watch, sample, what, refused)
         self._latest[sample.sensor] = mended
+        if refused is not None:
+            self._newest_received_s = float(np.fmax(self._newest_received_s, sample.t_received_s))
 
     def step(self, t_s: float) -> PipelineFrame:
         """Everything that can be said at `t_s` from what has been taken so far."""

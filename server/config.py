@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import tomllib
+from math import isfinite
 from pathlib import Path
 from typing import Annotated, Any, TypeVar
 
@@ -130,7 +131,7 @@ def read_config(path: Path) -> Config:
         InputError: the file cannot be read, or a key or value in it cannot be used; names file and key.
     """
     config = _read(path, Config)
-    _check_device(config.station.device, path)
+    _check_station(config.station, path)
     return config
 
 
@@ -141,7 +142,7 @@ def read_start(path: Path) -> StationStart:
         InputError: the file cannot be read, or a key or value in it cannot be used; names file and key.
     """
     start = _read(path, StationStart)
-    _check_device(start.station.device, path)
+    _check_station(start.station, path)
     return start
 
 
@@ -184,6 +185,17 @@ def _form_at(form: type[Any], inside: str) -> type[Any]:
     return form
 
 
+def _check_station(station: StationConfig, path: Path) -> None:
+    _check_device(station.device, path)
+    numbers = msgspec.structs.asdict(station.gate)
+    endless = [key for key, value in numbers.items() if not isfinite(value)]
+    if endless:
+        raise InputError(f"'{path}': station.gate.{endless[0]} is not finite", "a number")
+    for slow, hold in (("slow_from_rad", "hold_from_rad"), ("slow_from_s", "stale_s")):
+        if numbers[slow] >= numbers[hold]:
+            raise InputError(f"'{path}': station.gate.{slow} is not below {hold}", "slower first, then held")
+
+
 def _check_device(device: tuple[JointLimits, ...], path: Path) -> None:
     joints = tuple(limits.joint for limits in device)
     if joints != EXO_JOINTS:
@@ -192,7 +204,8 @@ def _check_device(device: tuple[JointLimits, ...], path: Path) -> None:
             f"each of {', '.join(EXO_JOINTS)}, once, in this order",
         )
     for limits in device:
-        if not limits.min_rad < limits.max_rad or limits.velocity_rad_s <= 0 or limits.acceleration_rad_s2 <= 0:
+        numbers = (limits.min_rad, limits.max_rad, limits.velocity_rad_s, limits.acceleration_rad_s2)
+        if not all(map(isfinite, numbers)) or limits.min_rad >= limits.max_rad or min(numbers[2:]) <= 0:
             raise InputError(
                 f"'{path}': station.device: the limits of '{limits.joint}' leave no movement",
                 "min_rad below max_rad, velocity_rad_s and acceleration_rad_s2 above 0",

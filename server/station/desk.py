@@ -7,7 +7,7 @@ from pathlib import Path
 from fusion.errors import MachineError
 from fusion.recording.log import LogAbout
 from server.config import StationConfig
-from server.messages import CloseSession, FollowBody, OpenSession, SessionClosed, Wish
+from server.messages import CloseSession, FollowBody, Hold, OpenSession, SessionClosed, Stop, Wish
 from server.station.exo import patient_range, safety
 from server.station.exo.driver import Drive
 from server.station.exo.safety import SafetyState
@@ -29,6 +29,7 @@ class Desk:
         self._config, self._perception, self._drive = config, perception, drive
         self.session: Session | None = None
         self.recorder: Recorder | None = None
+        self._last_stop = 0
 
     def answer(self, wish: Wish, state: SafetyState, now_s: float) -> tuple[SafetyState, str]:
         """Apply a wish.
@@ -36,11 +37,14 @@ class Desk:
         Returns:
             The gate's state afterwards, and why the wish was refused ("" = granted).
         """
+        if wish.number < self._last_stop:
+            return state, "A stop came after this wish."
         if isinstance(wish, OpenSession):
             return self._open(wish, state, now_s)
         if isinstance(wish, FollowBody):
-            self._perception.follow(wish.sensor, wish.body)
-            return state, ""
+            return self._follow(wish, state, now_s), ""
+        if isinstance(wish, Stop):
+            self._last_stop = wish.number
         return safety.wish(state, wish, now_s)
 
     def leave(self, state: SafetyState, now_s: float) -> SafetyState:
@@ -59,6 +63,11 @@ class Desk:
         self.session, self.recorder = None, None
         return closed
 
+    def _follow(self, wish: FollowBody, state: SafetyState, now_s: float) -> SafetyState:
+        """Another body's arm is another target: that is no short loss, so a person resumes."""
+        self._perception.follow(wish.sensor, wish.body)
+        return safety.wish(state, Hold(number=wish.number, reason="Another body is followed now."), now_s)[0]
+
     def _open(self, wish: OpenSession, state: SafetyState, now_s: float) -> tuple[SafetyState, str]:
         after, refusal = safety.wish(state, wish, now_s)
         refusal = refusal or self._unusable(wish)
@@ -72,6 +81,7 @@ class Desk:
         self._perception.treat(wish.healthy_side)
         if self.session.limits:
             self._drive.fit(self.session.limits)
+            after = safety.put_in(after, self._drive.read(now_s))
         return after, ""
 
     def _unusable(self, wish: OpenSession) -> str:

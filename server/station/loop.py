@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable
 from math import isnan
 
+from fusion.formats.osc import Reason
 from fusion.messages import Floats, Packet, PipelineFrame
 from server.channels import StationChannels, encoded
 from server.config import StationConfig
@@ -206,8 +207,9 @@ class Loop:
     def _timing(self, heard: Heard, given_s: float) -> Timing:
         counts = self._perception.decoder.counts()
         recorder = self._desk.recorder
+        newest_s, arrivals = heard.frame.newest_received_s, [sample.t_received_s for sample in heard.samples]
         return Timing(
-            datagram_to_command_s=given_s - heard.frame.newest_received_s if heard.samples else None,
+            datagram_to_command_s=given_s - newest_s if newest_s in arrivals else None,
             tick_s=self._last_tick_s,
             overruns=self._overruns,
             datagrams=counts.datagrams,
@@ -242,7 +244,8 @@ class Loop:
 
     def _troubles(self) -> tuple[Trouble, ...]:
         recorder, losses = self._desk.recorder, self._source.losses
-        garbage = self._perception.decoder.counts().refused_in_all
+        refused = dict(self._perception.decoder.counts().refused)
+        garbage = sum(refused.values()) - refused.get(Reason.REPEATED, 0)
         return (
             Trouble("overrun", self._overruns, "The control loop was late {more} times."),
             Trouble("garbage", garbage, "{more} messages from sensors could not be read."),

@@ -4,6 +4,7 @@
                     ▲                  └──hold, lost sensors, silence──▶┘
                     └──reset── stopped, fault (latched)
 
+Stopped and fault outlive their session: the next one opens in them and takes a reset and a start.
 The one exception is written in SR-5: a hold for lost sensors that ends soon, near the arm, resumes by itself.
 """
 
@@ -23,7 +24,9 @@ TRANSITIONS: Final[dict[tuple[DriveState, type[Wish]], DriveState]] = {
     (READY, CloseSession): OFF,
     (ENGAGED, CloseSession): OFF,
     (HOLD, CloseSession): OFF,
+    (STOPPED, OpenSession): STOPPED,
     (STOPPED, CloseSession): STOPPED,
+    (FAULT, OpenSession): FAULT,
     (FAULT, CloseSession): FAULT,
     (READY, Enable): ENGAGED,
     (ENGAGED, Hold): HOLD,
@@ -96,7 +99,8 @@ def wish(gate: GateState, wanted: Wish, facts: Facts, now_s: float) -> tuple[Gat
         session_open = isinstance(wanted, OpenSession)
     if after is READY and not session_open:
         after = OFF
-    return GateState(after, _reason(after, wanted), now_s, session_open), ""
+    reason = gate.reason if after is gate.state and after in (STOPPED, FAULT) else _reason(after, wanted)
+    return GateState(after, reason, now_s, session_open), ""
 
 
 def watch(gate: GateState, facts: Facts, config: GateConfig, now_s: float) -> GateState:

@@ -16,6 +16,7 @@ from server.station.exo.mapping import JointTarget
 ONE: Joints = (1.0,) * len(EXO_JOINTS)
 SHORTEST_STEP_S = 1e-4
 MOVED_BY_HAND_RAD = 0.05
+TOO_SOON = "The exoskeleton's state has only just changed; ask again."
 LONGEST_STEP_S = 0.02
 """A set-point never moves further than this much time allows, however late the tick."""
 
@@ -35,7 +36,7 @@ class SafetyState:
     thaw: Joints = ZERO
     """0..1 per joint: a joint that was held comes back as slowly as a blend-in."""
     frozen_s: float = 0.0
-    """How long swing or elbow has been held by uncertainty."""
+    """How long the swing has been held by uncertainty."""
     facts: Facts = field(default_factory=Facts)
     """Of the last tick; what a person saw who wishes now."""
     speed: Joints = ONE
@@ -49,9 +50,21 @@ class SafetyState:
 
 
 def wish(state: SafetyState, wanted: Wish, now_s: float) -> tuple[SafetyState, str]:
-    """Apply a person's wish at the tick's head; the second value says why it was refused ("" = granted)."""
+    """Apply a person's wish at the tick's head; the second value says why it was refused ("" = granted).
+
+    A granted wish outdates the facts: what comes in the same tick could be judged by another session's, or resume an
+    arm that has not begun to brake.
+    """
     after, refusal = gate.wish(state.gate, wanted, state.facts, now_s)
-    return replace(state, gate=after), refusal
+    if refusal:
+        return state, refusal
+    return replace(state, gate=after, facts=replace(state.facts, blockers=(*state.facts.blockers, TOO_SOON))), ""
+
+
+def put_in(state: SafetyState, reading: DriveReading) -> SafetyState:
+    """Somebody has put an arm in: what is held from now on is where it lies, not where the last one lay."""
+    expected = tuple(motion.angle_rad for motion in state.motions)
+    return replace(state, motions=tuple(map(Motion, evidence.sound(reading, expected).angle_rad)))
 
 
 def step(
@@ -82,8 +95,9 @@ def _judged(
 ) -> SafetyState:
     """The tick's facts."""
     engaged = state.gate.state is DriveState.ENGAGED
-    # A twist that cannot be told is normal (a straight elbow); a swing or elbow that cannot is a loss, in time.
-    frozen_s = 0.0 if free[1] and free[3] else state.frozen_s + elapsed_s
+    # A twist or an elbow that cannot be told (a straight or hidden forearm) is held alone, and the upper arm still
+    # mirrors; a swing that cannot be told leaves nothing to mirror.
+    frozen_s = 0.0 if free[1] else state.frozen_s + elapsed_s
     lost = evidence.lost(target, inputs.evidence_age_s, free, config)
     if not lost and frozen_s > (config.resume_within_s if engaged else 0.0):
         lost = "The healthy arm's position is too uncertain."

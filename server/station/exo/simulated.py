@@ -72,9 +72,9 @@ class SimulatedDrive:
         self._hold(self._angle)
 
     def fit(self, limits: tuple[JointLimits, ...]) -> None:
-        """Somebody puts the arm in: joints outside the patient's range are moved, by hand, to a tenth inside it."""
+        """Somebody puts the arm in, at rest as a seated patient's lies, and at least a tenth inside its range."""
         inside = []
-        for angle, joint in zip(self._angle, limits, strict=True):
+        for angle, joint in zip(AT_REST, limits, strict=True):
             inset = 0.1 * (joint.max_rad - joint.min_rad)
             inside.append(min(max(angle, joint.min_rad + inset), joint.max_rad - inset))
         self._angle, self._velocity = tuple(inside), ZERO

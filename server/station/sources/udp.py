@@ -23,6 +23,8 @@ BUFFER_BYTES: Final = 1 << 20
 ANCILLARY_BYTES: Final = 64
 CLOCK_STEP_NS: Final = 1_000_000
 SENDERS_REMEMBERED: Final = 1024
+OLDEST_S: Final = 1.0
+"""A stamp older than this is the wall clock's that was set while the datagram waited."""
 _TIMESPEC: Final = struct.Struct("@qq")
 _COUNT: Final = struct.Struct("@I")
 
@@ -102,7 +104,8 @@ class UdpSource:
         for _level, kind, data in ancillary:
             if kind == SO_TIMESTAMPNS and offset_ns is not None:
                 seconds, nanoseconds = _TIMESPEC.unpack(data[: _TIMESPEC.size])
-                t_s = min((seconds * 1_000_000_000 + nanoseconds + offset_ns) / 1e9, now_s)
+                stamped_s = (seconds * 1_000_000_000 + nanoseconds + offset_ns) / 1e9
+                t_s = stamped_s if now_s - OLDEST_S < stamped_s < now_s else now_s
             elif kind == SO_RXQ_OVFL:
                 self._overflows[at] = _COUNT.unpack(data[: _COUNT.size])[0]
         if not self._is_allowed(sender):

@@ -132,16 +132,20 @@ class HandCranked:
         return next(e for e in self.mailbox.told if isinstance(e, WishAnswer) and e.number == number)
 
     def open(self, recording: Path | str = "", **change: object) -> WishAnswer:
-        fields = {
+        return self.ask(OpenSession, **{**self.opening(), "recording": str(recording), **change})
+
+    @staticmethod
+    def opening() -> dict[str, object]:
+        """What a session is usually opened with."""
+        return {
             "session": "7",
             "patient": "P-7",
             "healthy_side": Side.RIGHT,
             "side_confirmed": True,
             "limits": patient_limits(),
             "limits_set_by": "therapist",
-            "recording": str(recording),
+            "recording": "",
         }
-        return self.ask(OpenSession, **{**fields, **change})
 
     def told(self, kind: type[Event]) -> list[Event]:
         return [event for event in self.mailbox.told if isinstance(event, kind)]

@@ -38,6 +38,10 @@ def test_nested_values_are_read(tmp_path: Path) -> None:
         ("[[station.device]]\njiont = 'plane'", ["station.device"]),
         ("[station]\nrate_hz = 'fast'", ["'station.rate_hz'", "int"]),
         ("[station.gate]\nblend_s = 0.5", ["'station.gate.blend_s'", ">= 2"]),
+        ("[station.gate]\nhold_from_rad = 0.3", ["station.gate.slow_from_rad", "hold_from_rad"]),
+        ("[station.gate]\nslow_from_s = 0.1", ["station.gate.slow_from_s", "stale_s"]),
+        ("[station.gate]\nheartbeat_s = inf", ["station.gate.heartbeat_s", "not finite"]),
+        ("[station.gate]\nengage_within_rad = nan", ["station.gate.engage_within_rad"]),
         ("port = 70000", ["'port'", "65535"]),
         ("[station]\ndevice = []", ["station.device", "plane, elevation, rotation, elbow"]),
         ("port = ", ["not well-formed", "TOML"]),
@@ -54,6 +58,19 @@ def test_a_bad_key_or_value_is_named_with_what_was_expected(tmp_path: Path, text
 def test_a_missing_file_is_named(tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"nowhere\.toml"):
         read_config(tmp_path / "nowhere.toml")
+
+
+@pytest.mark.parametrize("key", ["min_rad", "max_rad", "velocity_rad_s", "acceleration_rad_s2"])
+@pytest.mark.parametrize("value", ["nan", "inf"])
+def test_sr1_a_device_without_an_end_is_refused(tmp_path: Path, key: str, value: str) -> None:
+    tables = [msgspec.structs.asdict(limits) for limits in Config().station.device]
+    tables[2][key] = value
+    rows = [
+        "[[station.device]]\n" + "\n".join(f"{k} = {v if v == value else repr(v)}" for k, v in t.items())
+        for t in tables
+    ]
+    with pytest.raises(InputError, match="rotation"):
+        read_config(_file(tmp_path, "\n".join(rows)))
 
 
 def test_limits_without_room_are_refused(tmp_path: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -21,12 +22,15 @@ from server.messages import (
     FollowBody,
     Hold,
     LiveTick,
+    OpenSession,
     Reset,
     Resume,
     SessionClosed,
     StateChanged,
     Stop,
     Warned,
+    Wish,
+    WishAnswer,
 )
 from server.station.demonstration import Demonstration
 
@@ -243,6 +247,76 @@ def test_sr8_an_error_in_perception_costs_the_view_and_never_the_loop(monkeypatc
 def test_following_a_body_is_answered() -> None:
     rig = HandCranked()
     assert rig.ask(FollowBody, sensor="s1", body="1").accepted
+
+
+def test_sr5_choosing_another_body_holds_until_a_person_resumes() -> None:
+    rig = engaged()
+    assert rig.ask(FollowBody, sensor="s1", body="1").state is DriveState.HOLD
+    assert "followed" in rig.last.reason
+    assert rig.run(4.0).state is DriveState.HOLD
+    assert rig.ask(Resume).accepted, rig.last.blockers
+
+
+def test_sr5_a_stop_wins_over_everything_that_was_wished_before_it_and_read_in_the_same_tick() -> None:
+    rig = engaged()
+    rig.mailbox.wanted += [Reset(number=100), Enable(number=101), Stop(number=102, reason="pain")]
+    assert rig.tick().state is DriveState.STOPPED
+    rig.mailbox.wanted.append(Reset(number=99))
+    assert rig.tick().state is DriveState.STOPPED
+    assert "stop" in rig.told(WishAnswer)[-1].reason
+    rig.mailbox.wanted.append(Reset(number=103))
+    assert rig.tick().state is DriveState.READY
+
+
+@pytest.mark.parametrize("change", [{"side_confirmed": False}, {"limits": ()}])
+def test_sr10_a_session_is_not_enabled_by_what_was_known_of_the_one_before(change: dict[str, object]) -> None:
+    rig = engaged()
+    rig.ask(Hold, reason="a pause")
+    rig.run(1.0)
+    rig.ask(CloseSession)
+    while not rig.told(SessionClosed):
+        rig.tick()
+    opening = OpenSession(number=50, **{**rig.opening(), **change})
+    rig.mailbox.wanted += [opening, Enable(number=51)]
+    assert rig.tick().state is DriveState.READY
+    assert [answer.accepted for answer in rig.told(WishAnswer)[-2:]] == [True, False]
+
+
+@pytest.mark.parametrize("wishes", [(Hold, Resume), (Stop, Reset, Enable)])
+def test_sr6_nothing_is_resumed_in_the_very_tick_that_held_it(wishes: tuple[type[Wish], ...]) -> None:
+    rig = engaged()
+    fields = {Hold: {"reason": "a pause"}, Stop: {"reason": "pain"}}
+    rig.mailbox.wanted += [kind(number=50 + i, **fields.get(kind, {})) for i, kind in enumerate(wishes)]
+    assert rig.tick().state is not DriveState.ENGAGED
+
+
+def test_sr5_after_a_stop_the_next_session_opens_stopped_and_takes_a_reset_and_a_start() -> None:
+    rig = engaged()
+    rig.ask(Stop, reason="pain")
+    rig.ask(CloseSession)
+    rig.run(0.5)
+    assert rig.last.state is DriveState.STOPPED
+    assert rig.open(limits=patient_limits()).state is DriveState.STOPPED
+    assert rig.last.reason == "pain"
+    assert not rig.ask(Enable).accepted
+    assert rig.ask(Reset).state is DriveState.READY
+    rig.run(4.0)
+    assert rig.ask(Enable).accepted, rig.last.blockers
+
+
+def test_sr4_somebody_else_in_view_does_not_keep_a_patient_who_is_hidden_alive() -> None:
+    rig = engaged()
+    rig.run(1.0)
+    rig.seeing = [False, False]
+    aside = np.array([1.5, 0.0, 0.0])
+    for _ in range(15):
+        positions = rig.patient.step(0.01, None, ArmPose(*rig.last.exo.angle_rad)) + aside
+        for address, sensor in zip(rig.addresses, rig.sensors, strict=True):
+            sample = sensor.see(positions, rig.patient.t_s)
+            if sample is not None:
+                rig.send(address, replace(sample, body="77"))
+        rig.tick()
+    assert rig.last.state is DriveState.HOLD
 
 
 def test_the_trunks_lean_is_measured_from_where_it_was_at_enable(session: HandCranked) -> None:

@@ -244,6 +244,14 @@ def test_sr4_a_swing_that_stays_uncertain_holds_the_arm() -> None:
     assert rig.now is DriveState.HOLD
 
 
+def test_sr4_an_elbow_that_stays_uncertain_is_held_alone() -> None:
+    wanted = target(moved(0.0, 0.3, 0.0, 0.4), bound_rad=(0.1, 0.1, 0.1, 0.9))
+    rig = engaged(wanted, seconds=4.0)
+    assert rig.now is DriveState.ENGAGED
+    assert rig.command.angle_rad[3] == pytest.approx(AT_REST[3], abs=0.02)
+    assert rig.command.angle_rad[1] == pytest.approx(AT_REST[1] + 0.3, abs=0.02)
+
+
 def test_sr4_a_joint_that_was_held_comes_back_slowly() -> None:
     rig = engaged(seconds=2.1)
     unsure = target(moved(0.0, 0.0, 0.0, 0.8), bound_rad=(0.1, 0.1, 0.1, 0.9))
@@ -340,6 +348,17 @@ def test_sr5_resuming_waits_until_the_arm_has_come_to_rest() -> None:
     rig.tick(target(), service_age_s=0.3)
     rig.tick(target())
     assert "coming to rest" in rig.wish(Resume(number=1))
+
+
+def test_an_arm_that_is_put_in_after_a_stop_is_not_pulled_to_where_the_last_one_lay() -> None:
+    rig = engaged(target(moved(0.0, 0.6, 0.0, 0.6)), seconds=4.0)
+    assert rig.wish(Stop(number=1, reason="pain")) == ""
+    rig.run(0.5, target())
+    rig.drive.fit(LIMITS)
+    rig.state = safety.put_in(rig.state, rig.drive.read(rig.t_s))
+    rig.run(0.5, target())
+    assert rig.command.angle_rad == pytest.approx(AT_REST, abs=1e-3)
+    assert max(map(abs, rig.reading.velocity_rad_s)) < 0.1
 
 
 def test_sr7_an_arm_that_waits_does_not_sink() -> None:
