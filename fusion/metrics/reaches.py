@@ -83,6 +83,8 @@ def _bells(speed: Floats) -> list[tuple[int, int]]:
     """First and last index of every bell in a speed profile; those cut off by the profile's ends are left out."""
     peaks, found = find_peaks(speed, height=FASTEST_M_S, prominence=0.0)
     peaks = peaks[found["prominences"] >= RISE * found["peak_heights"]]
+    if not len(peaks):
+        return []
     valleys = [int(a + np.argmin(speed[a:b])) for a, b in pairwise(peaks)]
     spans = zip([0, *valleys], peaks, [*valleys, len(speed) - 1], strict=True)
     bells = [_ends(speed, int(peak), low, high) for low, peak, high in spans]

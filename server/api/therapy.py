@@ -7,6 +7,7 @@ import logging
 import secrets
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from datetime import datetime
 from pathlib import Path
 
@@ -177,8 +178,9 @@ class Therapy:
         """Store what a session's recording says was measured; what fails is tried again at the next start."""
         try:
             await run_in_threadpool(self._measure_now, session_id)
-        except (MirrorlimbError, DatabaseError, OSError) as error:
-            log.warning("session %d could not be measured: %s", session_id, error)
+        except Exception as error:  # whatever it is, the session is over and must read so
+            expected = isinstance(error, MirrorlimbError | DatabaseError | OSError)
+            log.warning("session %d could not be measured: %s", session_id, error, exc_info=not expected)
             self._journal.note(session_id, "not measured", str(error))
 
     async def curves(self, session_id: int) -> Curves:
@@ -217,6 +219,9 @@ class Therapy:
                 )
             )
         except RefusedError:
+            # An answer that came too late, now or at the last session's end, must not leave one open over there.
+            with suppress(RefusedError):
+                await self._link.ask(lambda number: CloseSession(number=number))
             await run_in_threadpool(session_store.forget, self._database, begun.id or 0)
             raise
 

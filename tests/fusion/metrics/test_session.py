@@ -80,6 +80,13 @@ def usual() -> tuple[Metric, ...]:
     return session_metrics(record())
 
 
+def test_a_hand_that_never_moves_has_no_movements() -> None:
+    still = record(10.0)
+    figures = session_metrics(replace(still, hand_in_trunk=np.zeros_like(still.hand_in_trunk)))
+    assert not [metric for metric in figures if metric.name == "movements"]
+    assert value(figures, "time_engaged") > 0
+
+
 def test_movements_are_counted_and_measured(usual: tuple[Metric, ...]) -> None:
     assert value(usual, "movements") == 19
     # A minimum-jerk reach of 0.3 m in 1 s: peak 1.875 × 0.3 m/s; it is above 15 % of that for 0.79 s.

@@ -250,3 +250,14 @@ def test_a_recording_that_cannot_be_read_is_said_and_the_session_kept(alone, per
     answer = person.get(f"/api/sessions/{session['id']}/curves")
     assert answer.status_code == 422
     assert str(recording.name) in answer.json()["detail"]["what"]
+
+
+def test_an_error_of_ours_in_measuring_still_ends_the_session(monkeypatch, alone, person, enrol):
+    session = opened(person, enrol(person)).json()
+
+    def broken(*_):
+        raise ZeroDivisionError("a mean of nothing")
+
+    monkeypatch.setattr("server.api.therapy.measure", broken)
+    answer = end(person, session)
+    assert (answer.status_code, answer.json()["status"], answer.json()["measured"]) == (200, "ended", False)
