@@ -1,4 +1,7 @@
-"""An estimator that takes samples in any order: late ones are put in their place by rewinding a short while."""
+"""An estimator that takes samples in any order: late ones are put in their place by rewinding a short while.
+
+Rewinding changes the past; what is told of the present moves on from what was told before (`fusion.steady`).
+"""
 
 from __future__ import annotations
 
@@ -8,6 +11,7 @@ from dataclasses import dataclass
 
 from fusion.estimation.estimator import Estimator
 from fusion.messages import AlignedSample, FusedFrame, Refusal
+from fusion.steady import follow
 
 WINDOW_S = 0.4
 """How late a sample may come and still count; two senders' delays differ by less."""
@@ -36,6 +40,7 @@ class RewindingEstimator:
         """Forget everything, as for another person."""
         self._estimator = self._make()
         self._steps: list[_Step] = []
+        self._told: FusedFrame | None = None
 
     @property
     def newest_s(self) -> float | None:
@@ -58,8 +63,10 @@ class RewindingEstimator:
         return refusals
 
     def frame(self, t_s: float) -> FusedFrame:
-        """The body at `t_s`, not before the newest sample."""
-        return self._estimator.frame(t_s)
+        """The body at `t_s`, not before the newest sample nor the last time asked for; no joint steps from there."""
+        last_s = self._told.t_s if self._told else t_s
+        self._told = follow(self._told, self._estimator.frame(max(t_s, last_s)))
+        return self._told
 
     def _update(self, sample: AlignedSample) -> tuple[Refusal, ...]:
         self._steps.append(_Step(sample, self._estimator.snapshot()))
