@@ -1,6 +1,9 @@
 // The live stream: one message at a time from the service, acknowledged once it can have been drawn.
 import type { LiveMessage, Screen } from "./types";
 
+/** Without news for this long what is shown is no longer true, whatever the connection says of itself. */
+export const STALE_S = 1;
+
 /** How the connection stands; `lost` means that it is being tried again. */
 export type Link = "connecting" | "open" | "lost";
 

@@ -1,6 +1,7 @@
 import { describe, expect, it } from "vitest";
+import { STALE_S } from "../api/live";
 import type { LiveMessage } from "../api/types";
-import { affectedSide, clockText, faceFor, STALE_S } from "./screen";
+import { affectedSide, clockText, faceFor } from "./screen";
 
 function message(state: string, phase: string | null, session = "s1"): LiveMessage {
   const game = phase === null ? null : { phase };

@@ -1,5 +1,5 @@
 // Which of its few faces the patient's screen shows: playing, or one plain sentence about what is going on.
-import type { Link } from "../api/live";
+import { type Link, STALE_S } from "../api/live";
 import type { LiveMessage } from "../api/types";
 
 export type Face =
@@ -15,9 +15,6 @@ export type Face =
   | "rest"
   | "over"
   | "playing";
-
-/** Without news for this long the picture is no longer true, whatever the connection says of itself. */
-export const STALE_S = 1;
 
 /** The connection as this page knows it: `locked` when the service answers but nobody has logged in here. */
 export type Access = Link | "locked";

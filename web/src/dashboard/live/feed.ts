@@ -1,19 +1,32 @@
 // The live stream as the page uses it: a plain object that always holds the newest message.
 import { useEffect, useState } from "preact/hooks";
-import { connectLive, type Link } from "../../api/live";
+import { connectLive, type Link, STALE_S } from "../../api/live";
 import type { LiveMessage } from "../../api/types";
 import { ASK_WHO } from "../hooks";
 import { Traces } from "./traces";
 
 export class Feed {
   newest: LiveMessage | null = null;
-  link: Link = "connecting";
+  /** What the connection says of itself. */
+  connection: Link = "connecting";
+  private arrived_s = 0;
   readonly traces = new Traces();
+
+  /** How things stand; a service that hangs breaks no connection, yet what it said last is no longer true. */
+  get link(): Link {
+    const isStale = this.newest !== null && seconds() - this.arrived_s > STALE_S;
+    return this.connection === "open" && isStale ? "lost" : this.connection;
+  }
 
   take(message: LiveMessage): void {
     this.newest = message;
+    this.arrived_s = seconds();
     this.traces.take(message.tick);
   }
+}
+
+function seconds(): number {
+  return performance.now() / 1000;
 }
 
 /** A feed that follows the stream for as long as the page is shown. */
@@ -24,7 +37,7 @@ export function useFeed(): Feed {
       "dashboard",
       (message) => feed.take(message),
       (link) => {
-        feed.link = link;
+        feed.connection = link;
         // The stream also breaks when the log-in has run out, and a browser is not told why it was refused.
         if (link === "lost") window.dispatchEvent(new Event(ASK_WHO));
       },
