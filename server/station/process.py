@@ -32,6 +32,11 @@ log = logging.getLogger(__name__)
 ORPHAN_S = 5.0
 """A station whose service has gone holds at once (its heartbeat is silent) and ends after this time."""
 LEAVE_WITHIN_S = 2.0
+VIRTUAL = (
+    "from server.station.pacemaker import give_up_priority as first; first(); "
+    "from server.station.sources.virtual import main; raise SystemExit(main())"
+)
+"""The demonstration's sensors: our priority is given up before a second of imports, not after."""
 LOOK_EVERY_S = 2.0
 LOG_BYTES, LOG_FILES = 1_000_000, 3
 
@@ -46,13 +51,16 @@ def run(start: StationStart) -> None:
     with ExitStack() as stack:
         stack.enter_context(only_one(data))
         stack.enter_context(logging_to(data / "logs" / "realtime.log"))
-        log.info("real-time priority %s", "granted" if pacemaker.ask_for_priority() else "not granted")
         config = start.station
         source = stack.enter_context(UdpSource(config.sensors))
         # Until a session says whose arm is healthy; the demonstration's patient has a healthy right one.
         side = Side.RIGHT if start.demo else Side.LEFT
         perception = Perception(PipelineSettings(side, config.method, config.reference))
         drive = stack.enter_context(make_drive(config))
+        pacemaker.settle()
+        # No sooner: 0.14 s of garbage collection at this priority held up another station's loop for 0.11 s. And no
+        # later: the threads of the channels and the recorder need it too.
+        log.info("real-time priority %s", "granted" if pacemaker.ask_for_priority() else "not granted")
         channels = StationChannels(Path(start.channels))
         stack.callback(channels.close)
         demonstration = Demonstration() if start.demo else None
@@ -61,7 +69,6 @@ def run(start: StationStart) -> None:
         if start.demo:
             vigil.sensors = DemonstrationSensors(start, source.ports)
             stack.callback(vigil.sensors.close)
-        pacemaker.settle()
         loop.announce(time.monotonic())
         pacemaker.keep_time(loop.step, loop.count_overruns, config.rate_hz, vigil.goes_on)
         _leave(loop, config.rate_hz)
@@ -169,7 +176,7 @@ class DemonstrationSensors:
 
     def __init__(self, start: StationStart, ports: dict[str, int]) -> None:
         port = ports.get("kinectv2-osc") or next(iter(ports.values()))
-        module = [sys.executable, "-m", "server.station.sources.virtual", "--channels", start.channels]
+        module = [sys.executable, "-c", VIRTUAL, "--channels", start.channels]
         options = ["--host", start.station.sensors.bind, "--port", str(port), "--parent", str(os.getpid())]
         self._command = [*module, *options]
         self._process = self._spawn()

@@ -21,7 +21,6 @@ from fusion.virtual_patient.sensor import SensorPose, VirtualSensor
 from server.channels import DemonstrationChannels
 from server.messages import EXO_JOINTS, DemoGoal
 from server.station.demonstration import ADDRESSES
-from server.station.pacemaker import give_up_priority
 
 STEP_S = 1 / 60
 SECOND_LATE_S = 0.02
@@ -111,14 +110,13 @@ def play(stage: VirtualStage, channels: DemonstrationChannels, parent: int) -> N
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Entry point of `python -m server.station.sources.virtual`."""
+    """Entry point of the demonstration's own process."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--channels", type=Path, required=True, help="private folder of the channels")
     parser.add_argument("--host", required=True, help="where the station listens")
     parser.add_argument("--port", type=int, required=True, help="its port for kinectv2-osc")
     parser.add_argument("--parent", type=int, required=True, help="process to end with")
     options = parser.parse_args(arguments)
-    give_up_priority()
     try:
         channels, stage = DemonstrationChannels(options.channels), VirtualStage(options.host, options.port)
     except MirrorlimbError as error:

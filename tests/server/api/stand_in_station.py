@@ -210,6 +210,9 @@ class Station:
         self.answer(wish)
 
     def close(self, wish):
+        if self.session is None:
+            self.answer(wish, False, "no session is open")
+            return
         closed, self.session = self.session, None
         self.log.close()
         self.log = None
