@@ -1,0 +1,108 @@
+"""`mirrorlimb arm`: shoulder, elbow, wrist and hand from inertial sensors alone."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Annotated, Final
+
+import numpy as np
+import typer
+from rich.console import Console
+from rich.progress import Progress
+
+from fusion.errors import InputError
+from fusion.inertial.arm import SEGMENTS, ArmSensors, InertialArm, sides_worn, track_arm
+from fusion.inertial.chain import CHAIN_JOINTS
+from fusion.inertial.lengths import USUAL, lengths_seen
+from fusion.inertial.orientation import Inertial, Oriented, orient, together
+from fusion.inertial.pose import checked_pose, find_pose
+from fusion.messages import ArmLengths
+from fusion.recording.reader import Recording, read_recording
+from fusion.skeleton import Side
+
+FILE: Final = "arm.csv"
+COLUMNS: Final = "t_s,side,joint,x_m,y_m,z_m"
+LONGEST_M: Final = 1.0
+
+Length = Annotated[float | None, typer.Option(metavar="M", help="Metres; else as the recording's camera saw it.")]
+
+
+def arm(
+    recording: Annotated[Path, typer.Argument(help="A recording: its folder or a .mcap file.", show_default=False)],
+    out: Annotated[Path, typer.Option(metavar="FOLDER", help=f"Where {FILE} goes.")],
+    pose: Annotated[
+        tuple[float, float] | None,
+        typer.Option(metavar="FROM TO", help="When the arms hung still; else looked for in the first 10 s."),
+    ] = None,
+    upper_arm: Length = None,
+    forearm: Length = None,
+    hand: Length = None,
+) -> None:
+    """Follow the arms by the inertial sensors on upper arm, forearm and hand; no magnetometer, no camera."""
+    console = Console(stderr=True)
+    source = read_recording(recording)
+    given = (upper_arm, forearm, hand)
+    _check_lengths(given)
+    sides = sides_worn([stream.site for stream in source.imu_streams])
+    arms = []
+    with Progress(console=console, transient=True) as progress:
+        for side in progress.track(sides, description=source.name):
+            arms.append(_tracked(source, side, given, pose))
+    _write(arms, out)
+    for found in arms:
+        console.print(_summary(found), highlight=False, markup=False, soft_wrap=True)
+
+
+def _tracked(
+    source: Recording, side: Side, given: Sequence[float | None], pose: tuple[float, float] | None
+) -> InertialArm:
+    upper, forearm, hand = _oriented(source, side)
+    segments = (upper, forearm, hand)
+    when = find_pose(segments) if pose is None else checked_pose(segments, *pose)
+    return track_arm(side, ArmSensors(*segments), _lengths(source, side, given), when)
+
+
+def _oriented(source: Recording, side: Side) -> list[Oriented]:
+    by_site = {stream.site: stream for stream in source.imu_streams}
+    worn = [by_site[f"{segment}-{side.value}"] for segment in SEGMENTS]
+    return [orient(imu) for imu in together([Inertial(s.site, s.t_s, s.gyro_rad_s, s.accel_m_s2) for s in worn])]
+
+
+def _check_lengths(given: Sequence[float | None]) -> None:
+    for length_m in given:
+        if length_m is not None and not 0 < length_m <= LONGEST_M:
+            raise InputError(f"a segment of {length_m:g} m", f"between 0 and {LONGEST_M:g} m", "give metres")
+
+
+def _lengths(source: Recording, side: Side, given: Sequence[float | None]) -> ArmLengths:
+    primary = [sample for stream in source.skeleton_streams if stream.primary for sample in stream.samples]
+    known = lengths_seen(primary, side) or USUAL
+    measured = (known.upper_arm_m, known.forearm_m, known.hand_m)
+    return ArmLengths(*(known_m if m is None else m for m, known_m in zip(given, measured, strict=True)))
+
+
+def _write(arms: Sequence[InertialArm], folder: Path) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / FILE).write_text("".join(_lines(arms)), encoding="utf-8")
+    except OSError as error:
+        what = f"{folder} cannot be written: {error.strerror}"
+        raise InputError(what, "a folder of yours", "choose another --out") from error
+
+
+def _lines(arms: Sequence[InertialArm]) -> Iterator[str]:
+    """A line per arm, instant and joint; picometres, so that the segments' lengths can be seen to be constant."""
+    yield f"{COLUMNS}\n"
+    for found in arms:
+        for t_s, points in zip(found.t_s.tolist(), found.positions.tolist(), strict=True):
+            for joint, (x, y, z) in zip(CHAIN_JOINTS, points, strict=True):
+                yield f"{t_s:.6f},{found.side.value},{joint},{x:.12f},{y:.12f},{z:.12f}\n"
+
+
+def _summary(found: InertialArm) -> str:
+    bent = np.degrees(found.angles.elbow_flexion_rad)
+    hung = f"hung from {found.pose.from_s:.1f} to {found.pose.to_s:.1f} s"
+    bend = f"bent by {np.degrees(found.hanging_flexion_rad):.0f}°"
+    off = f"off the hinge {np.degrees(found.off_hinge_rad):.0f}° rms"
+    return f"{found.side.value}: {hung}, {bend}; elbow {bent.min():.0f} to {bent.max():.0f}°, {off}"
