@@ -19,11 +19,14 @@ SPEED_MAX_M_S: Final = 6.0
 """A limb is no faster; what is held grows no less sure than this."""
 
 
+Samples = tuple[AlignedSample, ...]
+
+
 @dataclass(frozen=True, slots=True)
 class AverageState:
     """The latest sample of each sensor and the last average of each joint."""
 
-    samples: tuple[AlignedSample, ...]
+    samples: Samples
     position: Floats  # (J, 3) m
     seen_s: Floats  # (J,)
 
@@ -40,7 +43,8 @@ class Average(Estimator):
         """Put the sample in the place of the sensor's former one; nothing is ever refused."""
         newest_s = max((s.t_s for s in self._state.samples), default=-np.inf)
         if sample.t_s >= newest_s - TOO_OLD_S:
-            self._state = _take(self._state, sample, max(newest_s, sample.t_s))
+            samples = _fresh(self._state.samples, sample, max(newest_s, sample.t_s))
+            self._state = _joined(self._state, samples, self._weights(samples))
         return ()
 
     def frame(self, t_s: float) -> FusedFrame:
@@ -49,6 +53,10 @@ class Average(Estimator):
         bound_m = SENSOR_BOUND_M + SPEED_MAX_M_S * np.maximum(t_s - seen_s, 0.0)
         shape_m2 = np.where(np.isfinite(bound_m), bound_m, np.nan)[:, None, None] ** 2 * np.eye(3)
         return FusedFrame(t_s, self._state.position, shape_m2, bound_m, state_of(seen_s, t_s))
+
+    def _weights(self, samples: Samples) -> Floats:
+        """(K, J) how much each sample counts for each joint that it gives."""
+        return np.ones((len(samples), JOINT_COUNT))
 
     def snapshot(self) -> object:
         """The estimator's state."""
@@ -61,15 +69,21 @@ class Average(Estimator):
         self._state = snapshot
 
 
-def _take(state: AverageState, sample: AlignedSample, now_s: float) -> AverageState:
-    others = (s for s in state.samples if s.sensor != sample.sensor and now_s - s.t_s <= CONTINUE_S)
-    samples = (*others, sample)
+def _fresh(samples: Samples, sample: AlignedSample, now_s: float) -> Samples:
+    """The latest sample of each sensor, without what is too old."""
+    others = (s for s in samples if s.sensor != sample.sensor and now_s - s.t_s <= CONTINUE_S)
+    return (*others, sample)
+
+
+def _joined(state: AverageState, samples: Samples, weights: Floats) -> AverageState:
+    """The mean of K samples under `weights` (K, J) where they give the joint; held where none does."""
     positions = np.stack([s.positions_in_room for s in samples])  # (K, J, 3)
     given = np.stack([is_given(s.positions_in_room, s.state) for s in samples])  # (K, J)
-    total = np.where(given[..., None], positions, 0.0).sum(axis=0)
-    count = given.sum(axis=0)
-    mean = total / np.maximum(count, 1)[:, None]
+    shares = np.where(given, weights, 0.0)
+    total = (shares[..., None] * np.where(given[..., None], positions, 0.0)).sum(axis=0)
+    count: Floats = given.sum(axis=0)
     seen = count > 0
+    mean = total / np.where(seen, shares.sum(axis=0), 1.0)[:, None]
     newest_s = np.where(given, np.array([s.t_s for s in samples])[:, None], -np.inf).max(axis=0)
     return AverageState(
         samples,
