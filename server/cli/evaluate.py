@@ -20,7 +20,8 @@ from fusion.estimation import METHODS
 from fusion.evaluation.markdown import HEADINGS, cells, page, title
 from fusion.evaluation.runs import Evaluation, Way, evaluate_recording, pooled, ways_of
 from fusion.evaluation.scores import Score
-from fusion.recording.reader import read_recording
+from fusion.recording.reader import Recording, read_recording
+from server.cli.orientation_scores import orientation_table, orientations_as_json, score_orientation
 
 TABLE_WIDTH = 100
 """Figures are not cut off where the terminal is narrower, or none."""
@@ -37,15 +38,22 @@ def evaluate(
     """Fuse recordings with every method and every sensor alone, and compare with their truth.
 
     Alignment and clock offsets are estimated: once from the whole recording, once on the way as live. Everything after
-    the first two seconds is scored, occluded and lost frames too.
+    the first two seconds is scored, occluded and lost frames too. Where a recording knows how an inertial sensor was
+    turned, the orientation filter is judged by that.
     """
     recordings, more_methods = _told_apart(recording, bool(method))
     methods = _known([*(method or METHODS), *more_methods])
-    evaluations = _evaluated(recordings, methods)
+    sources = [read_recording(path) for path in recordings]
+    turned = [score_orientation(s, s.orientation_truth) for s in sources if s.orientation_truth is not None]
+    evaluations = _evaluated([s for s in sources if s.skeleton_streams or s.orientation_truth is None], methods)
     if as_json:
-        sys.stdout.write(json.dumps(_as_json(evaluations), indent=1) + "\n")
+        told = _as_json(evaluations) | {"orientations": orientations_as_json(turned)}
+        sys.stdout.write(json.dumps(told, indent=1) + "\n")
     else:
-        _show(Console(width=max(Console().width, TABLE_WIDTH)), evaluations)
+        console = Console(width=max(Console().width, TABLE_WIDTH))
+        _show(console, evaluations)
+        for score in turned:
+            console.print(orientation_table(score))
     if markdown is not None:
         _write(markdown, page(evaluations, _command(recordings, markdown)))
 
@@ -69,11 +77,10 @@ def _known(methods: list[str]) -> list[str]:
     return list(dict.fromkeys(methods))
 
 
-def _evaluated(paths: Sequence[Path], methods: Sequence[str]) -> list[Evaluation]:
+def _evaluated(recordings: Sequence[Recording], methods: Sequence[str]) -> list[Evaluation]:
     evaluations = []
     with Progress(console=Console(stderr=True), transient=True) as progress:
-        for path in paths:
-            recording = read_recording(path)
+        for recording in recordings:
             advance = _advance(progress, progress.add_task(recording.name, total=1.0))
             evaluations.append(evaluate_recording(recording, ways_of(recording, methods), advance))
     return evaluations

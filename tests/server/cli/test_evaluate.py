@@ -108,3 +108,24 @@ def test_no_truth_ends_with_exit_code_2_and_what_was_expected(tmp_path, monkeypa
 def test_a_missing_recording_ends_with_exit_code_2(tmp_path, monkeypatch, capsys) -> None:
     assert run(monkeypatch, tmp_path / "nothing") == 2
     assert "does not exist" in capsys.readouterr().err
+
+
+@pytest.mark.recordings
+def test_orientations_are_judged_where_their_truth_is_known(recordings, monkeypatch, capsys) -> None:
+    assert run(monkeypatch, recordings / "imu-broad-36") == 0
+    said = capsys.readouterr().out
+    assert "with magnetometer" in said
+    assert "inclination" in said
+    assert run(monkeypatch, recordings / "imu-broad-02", "--json") == 0
+    said = json.loads(capsys.readouterr().out)
+    assert said["recordings"] == []
+    (judged,) = said["orientations"]
+    assert 0 < judged["ways"]["with magnetometer"]["total_rad"] < np.radians(1.3)
+
+
+def test_true_orientations_need_the_sensor_that_they_are_of(tmp_path, monkeypatch, capsys) -> None:
+    (tmp_path / "truth.csv").write_text("t_s,qw,qx,qy,qz,moving\n0,1,0,0,0,1\n")
+    streams = [{"file": "truth.csv", "kind": "truth-orientation"}]
+    (tmp_path / "recording.json").write_text(json.dumps({"format": "mirrorlimb-recording/1", "streams": streams}))
+    assert run(monkeypatch, tmp_path) == 2
+    assert "0 imu streams" in capsys.readouterr().err
