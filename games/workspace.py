@@ -21,6 +21,8 @@ IN_FRONT_M: Final = 0.25
 """Targets stand at least this far ahead of the shoulders, where the patient sees them."""
 HIGHEST_M: Final = 0.15
 """Targets stand no higher than this above the shoulder: arms held overhead tire, and the eyes look ahead."""
+LOWEST_M: Final = 0.3
+"""Targets stand no lower than this below the shoulder: seen from the eyes, the sleeve would hide them in the lap."""
 AWKWARD_M_PER_RAD: Final = 0.1
 """What a turned humerus costs. With little rotation the elbow hangs below the line to the hand, as people reach; a
 target whose drawn pose is far from that would make them leave the ranges in which it was drawn."""
@@ -96,10 +98,13 @@ def _cost(reach: Reach, workspace: Workspace, wanted_m: float, hand: Point, rece
     way_m = distance_m(reach.position, hand)
     behind_m = max(reach.position[2] - workspace.shoulder[2] + IN_FRONT_M, 0.0)
     above_m = max(reach.position[1] - workspace.shoulder[1] - HIGHEST_M, 0.0)
+    below_m = max(workspace.shoulder[1] - LOWEST_M - reach.position[1], 0.0)
     crowding_m = sum(max(CROWDED_M - distance_m(reach.position, other), 0.0) for other in recent)
     too_near_m = max(NEAREST_STEP_M - way_m, 0.0)
     awkward_m = AWKWARD_M_PER_RAD * abs(reach.pose_rad[2])
-    return abs(way_m - wanted_m) + 10.0 * (behind_m + above_m) + 2.0 * crowding_m + 3.0 * too_near_m + awkward_m
+    return (
+        abs(way_m - wanted_m) + 10.0 * (behind_m + above_m + below_m) + 2.0 * crowding_m + 3.0 * too_near_m + awkward_m
+    )
 
 
 def distance_m(a: Point, b: Point) -> float:
