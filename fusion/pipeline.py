@@ -124,6 +124,7 @@ class Pipeline:
     def treat(self, healthy_side: Side) -> None:
         """A session begins: this arm is the healthy one. What has been learnt of the sensors stays."""
         self._settings = replace(self._settings, healthy_side=healthy_side)
+        self._patient.begin_session()
         self._lengths = LengthLearner()
         self._target = None
 

@@ -96,6 +96,11 @@ class PatientFinder:
             view.choose(None)
         self._views.setdefault(sensor, _View(-np.inf)).choose(body)
 
+    def begin_session(self) -> None:
+        """Another patient may come: who stood beside the last one may be the next."""
+        for view in self._views.values():
+            view.others.clear()
+
     def prefer(self, sensor: str, body: str | None) -> None:
         """Follow this body in one sensor, as it moves like the patient in the reference; None changes nothing."""
         if body is not None and sensor in self._views:
@@ -121,6 +126,8 @@ class PatientFinder:
         view = self._views.setdefault(sample.sensor, _View(t_s))
         before = view.seen.get(sample.body)
         view.seen[sample.body] = Sighting(sample.body, t_s, centre)
+        if before is not None and t_s - before.t_s > UNKNOWN_AFTER_S:
+            view.others.discard(sample.body)  # numbers are reused: after so long it may be anybody
         if before is not None and _jumped(before, view.seen[sample.body]):
             view.others.discard(sample.body)
             view.followed = None if view.followed == sample.body else view.followed

@@ -51,6 +51,27 @@ def test_somebody_seen_beside_the_patient_is_not_taken_when_the_patient_is_hidde
     assert run(finder, [body("patient", 4.0)], lambda: here) == ["patient"]
 
 
+@pytest.fixture
+def beside(body):
+    """A finder whose patient has left; the other one stays."""
+    finder = PatientFinder()
+    run(finder, [s for t in np.arange(0, 1, 1 / 30) for s in (body("patient", t), body("other", t, (0.6, 0, 2.4)))])
+    gone = Expected(np.array([0.0, 0.0, 2.0]), 20.0)
+    assert run(finder, [body("other", t) for t in np.arange(1, 6, 1 / 30)], lambda: gone) == []
+    return finder, gone
+
+
+def test_the_number_of_somebody_who_was_away_for_long_may_be_the_patients(beside, body):
+    finder, gone = beside
+    assert set(run(finder, [body("other", t) for t in np.arange(12, 13, 1 / 30)], lambda: gone)) == {"other"}
+
+
+def test_who_stood_beside_the_last_patient_may_be_the_next_one(beside, body):
+    finder, gone = beside
+    finder.begin_session()
+    assert set(run(finder, [body("other", t) for t in np.arange(6, 7, 1 / 30)], lambda: gone)) == {"other"}
+
+
 def test_a_new_number_where_the_patient_was_is_the_patient(body):
     finder = PatientFinder()
     run(finder, [body("7", t) for t in np.arange(0, 1, 1 / 30)])
