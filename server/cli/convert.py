@@ -19,4 +19,5 @@ def convert(
     source = read_recording(recording)
     write_recording(source, out)
     frames = sum(len(stream.samples) for stream in source.skeleton_streams)
-    typer.echo(f"{out}: {len(source.skeleton_streams)} sensors, {frames} frames.")
+    sensors = f"{len(source.skeleton_streams)} sensors, {frames} frames"
+    typer.echo(f"{out}: {sensors}, {len(source.imu_streams)} inertial streams.")
