@@ -52,8 +52,9 @@ def learn(biases: Biases, sensor: str, t_s: float, difference_m: Floats, joints:
 
 def _centred(biases: Biases) -> Biases:
     """The same differences, none too large, with no offset that all sensors share."""
-    offsets = np.stack([bias.offset_m for bias in biases])  # (K, J, 3)
-    offsets = offsets - offsets.mean(axis=0)
-    size = np.linalg.norm(offsets, axis=2, keepdims=True)
-    offsets = offsets * np.minimum(1.0, LARGEST_M / np.maximum(size, LARGEST_M))
+    offsets = np.array([bias.offset_m for bias in biases])  # (K, J, 3)
+    offsets -= offsets.sum(axis=0) / len(biases)
+    squares = np.einsum("kji,kji->kj", offsets, offsets)
+    if squares.max() > LARGEST_M**2:
+        offsets *= (LARGEST_M / np.sqrt(np.maximum(squares, LARGEST_M**2)))[..., None]
     return tuple(replace(bias, offset_m=offset) for bias, offset in zip(biases, offsets, strict=True))
