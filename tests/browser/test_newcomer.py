@@ -89,8 +89,12 @@ def hold_and_resume(page: Page) -> None:
     if page.get_by_test_id("hold").is_enabled():  # unless the station holds already
         page.get_by_test_id("hold").click()
     expect(page.get_by_test_id("state")).to_have_attribute("data-state", "hold")
-    page.get_by_test_id("resume").click()
-    expect(page.get_by_test_id("state")).to_have_attribute("data-state", "engaged", timeout=10_000)
+    ends_s = monotonic() + PLAYED_S
+    while page.get_by_test_id("state").get_attribute("data-state") != "engaged":
+        assert monotonic() < ends_s, "the session could not be resumed"
+        if page.get_by_test_id("resume").is_enabled():  # refused while a busy machine keeps frames away
+            page.get_by_test_id("resume").click()
+        page.wait_for_timeout(500)
 
 
 def test_a_newcomer_watches_plays_stops_and_finds_the_figures_again(start_service, page: Page, shots: Path) -> None:
