@@ -43,10 +43,10 @@ def _axes(line: Floats, flat: Floats, r: Floats) -> Floats:
     sin_az, cos_az = line[:, 0] / flat, line[:, 2] / flat
     sin_el, cos_el = line[:, 1] / r, flat / r
     zero = np.zeros_like(flat)
-    along = np.stack([cos_el * sin_az, sin_el, cos_el * cos_az], axis=1)
-    across = np.stack([cos_az, zero, -sin_az], axis=1)
-    up = np.stack([-sin_el * sin_az, cos_el, -sin_el * cos_az], axis=1)
-    return np.stack([along, across, up], axis=1)
+    along = [cos_el * sin_az, sin_el, cos_el * cos_az]
+    across = [cos_az, zero, -sin_az]
+    up = [-sin_el * sin_az, cos_el, -sin_el * cos_az]
+    return np.array([along, across, up]).transpose(2, 0, 1)
 
 
 def _widened(r: Floats, flat: Floats, sin_el: Floats, half_width: Floats) -> Floats:
@@ -56,4 +56,4 @@ def _widened(r: Floats, flat: Floats, sin_el: Floats, half_width: Floats) -> Flo
     along = r - np.maximum(r - rho, 0.0) * np.maximum(np.cos(a) + np.cos(b) - 1, 0.0)
     across = (r + rho) * np.sin(a)
     up = (r + rho) * (np.sin(b) + np.abs(sin_el) * (1 - np.cos(a)))
-    return np.stack([along, across, up], axis=1)
+    return np.array([along, across, up]).T
