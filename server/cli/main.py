@@ -16,6 +16,7 @@ from server.cli.convert import convert
 from server.cli.doctor import doctor
 from server.cli.evaluate import evaluate
 from server.cli.fuse import fuse
+from server.cli.locate import locate
 from server.cli.replay import replay
 from server.cli.serve import serve
 
@@ -28,7 +29,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     help="Mirror therapy with several sensors and an exoskeleton. Research software, not a medical device.",
 )
-for command in (serve, replay, fuse, evaluate, arm, convert, doctor):
+for command in (serve, replay, fuse, evaluate, locate, arm, convert, doctor):
     app.command(command.__name__)(command)
 
 

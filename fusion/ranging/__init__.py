@@ -1,0 +1,1 @@
+"""Where tags are, from radio ranges to anchors, with inertial help [Shi]."""

@@ -1,0 +1,89 @@
+"""The two experiments of [Shi] by simulation: standing while somebody walks around, and a walk around a square."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from fusion.messages import Floats
+from fusion.ranging.paper import least_squares_position, standing, stepped
+
+ANCHORS: Final = np.array([[0.0, 0.0, 1.0], [0.0, 2.7, 1.0], [2.7, 0.0, 1.0]])
+"""A, B above and C to the right of it, as in the paper's fig. 3; the distances are ours."""
+MIDDLE: Final = np.array([1.35, 1.35, 1.0])
+RATE_HZ: Final = 50.0
+RANGE_SIGMA_M: Final = 0.03
+OBSTACLE_M: Final = 0.30
+"""How much a body between tag and anchor lengthens a range; scattered by a third."""
+BODY_M: Final = 0.25
+"""Half a person's breadth: nearer to the line of sight than that, they block it."""
+ACCEL_SIGMA_M_S2: Final = 0.05
+ACCEL_BIAS_M_S2: Final = 0.02
+SQUARE_M: Final = 2.4
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """One run: where the tag was, and where radio alone and the joined method put it, (T, 3) m each."""
+
+    truth: Floats
+    radio_alone: Floats
+    joined: Floats
+
+
+def somebody_walks_around(seed: int, lap_s: float = 20.0, radius_m: float = 0.8) -> Outcome:
+    """The tag stands at (135, 135) cm; a person walks once around it and blocks each anchor in turn."""
+    t_s = np.arange(0.0, lap_s, 1 / RATE_HZ)
+    phase = 2 * np.pi * t_s / lap_s
+    person = MIDDLE + radius_m * np.stack([np.cos(phase), np.sin(phase), 0 * phase], axis=-1)
+    return _run(np.tile(MIDDLE, (len(t_s), 1)), person, seed)
+
+
+def walk_around_a_square(seed: int, speed_m_s: float = 0.6) -> Outcome:
+    """The tag is carried anticlockwise once around a 2.4 m square; the bearer's own body, behind it, blocks anchors."""
+    truth = _square(speed_m_s)
+    ahead = np.gradient(truth, axis=0)
+    length = np.maximum(np.linalg.norm(ahead, axis=1, keepdims=True), 1e-9)
+    return _run(truth, truth - 0.3 * ahead / length, seed)
+
+
+def _square(speed_m_s: float) -> Floats:
+    """Around the square with corners rounded over half a second, so that accelerations stay those of a person."""
+    low, high = 1.35 - SQUARE_M / 2, 1.35 + SQUARE_M / 2
+    corners = np.array([[low, low], [high, low], [high, high], [low, high], [low, low]])
+    at = np.arange(0.0, 4 * SQUARE_M, speed_m_s / RATE_HZ)
+    flat = np.stack([np.interp(at, SQUARE_M * np.arange(5), corners[:, axis]) for axis in (0, 1)], axis=-1)
+    taps = int(RATE_HZ / 2)
+    held = np.concatenate([np.repeat(flat[:1], taps, 0), flat, np.repeat(flat[-1:], taps, 0)])
+    for _ in range(2):
+        held = np.stack([np.convolve(held[:, axis], np.ones(taps) / taps, "valid") for axis in (0, 1)], axis=-1)
+    return np.column_stack([held, np.full(len(held), MIDDLE[2])])
+
+
+def _run(truth: Floats, person: Floats, seed: int) -> Outcome:
+    rng = np.random.default_rng(seed)
+    dt_s = 1 / RATE_HZ
+    range_m = _ranges(truth, person, rng)
+    acceleration = np.gradient(np.gradient(truth, dt_s, axis=0), dt_s, axis=0)
+    acceleration += rng.normal(0, ACCEL_SIGMA_M_S2, truth.shape) + ACCEL_BIAS_M_S2 * rng.uniform(-1, 1, 3)
+    acceleration[:, 2] = 0.0
+    state = standing(truth[0])
+    alone, together = np.empty_like(truth), np.empty_like(truth)
+    for i, (ranges, accel) in enumerate(zip(range_m, acceleration, strict=True)):
+        alone[i] = least_squares_position(ANCHORS, ranges, MIDDLE)
+        state = stepped(state, ANCHORS, ranges, RANGE_SIGMA_M, accel, dt_s)
+        together[i] = state.position
+    return Outcome(truth, alone, together)
+
+
+def _ranges(truth: Floats, person: Floats, rng: np.random.Generator) -> Floats:  # (T, 3)
+    away = ANCHORS - truth[:, None]
+    distance = np.linalg.norm(away, axis=-1)
+    to_person = person - truth
+    along = np.einsum("tad,td->ta", away, to_person) / distance
+    aside = np.sqrt(np.maximum(np.sum(to_person**2, axis=1)[:, None] - along**2, 0.0))
+    blocked = (along > 0) & (along < distance) & (aside < BODY_M)
+    longer = np.where(blocked, OBSTACLE_M * (1 + rng.normal(0, 1 / 3, distance.shape)), 0.0)
+    return np.asarray(distance + rng.normal(0, RANGE_SIGMA_M, distance.shape) + np.maximum(longer, 0.0))

@@ -1,0 +1,156 @@
+"""Where the tags are, instant by instant, with a bound: calibration, start, filter and restart put together."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fusion.errors import InputError
+from fusion.messages import Floats
+from fusion.ranging.calibration import Calibration
+from fusion.ranging.filter import RigState, predicted, started, tag_covariances, updated
+from fusion.ranging.links import LinkModel
+from fusion.ranging.multilateration import solve_position
+from fusion.ranging.ranges import Ranges
+from fusion.ranging.rig import SINGLE, Rig
+
+START_GATE_M: Final = 0.6
+START_MEMORY_S: Final = 0.3
+"""A start takes ranges that are no older: links are asked one after the other."""
+PATIENCE_S: Final = 0.5
+"""After so long without a range that fits, the filter is wrong, not the ranges: it starts again."""
+RETRY_S: Final = 0.1
+"""A start tries many sets of anchors; where none agrees, the next instant's ranges are nearly the same."""
+SIGHT_MEMORY_S: Final = 1.0
+BOUND_SIGMAS: Final = 3.5
+FLAT: Final = 0.1
+"""Anchors spread by less than so many metres along a direction say nothing of it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Track:
+    """The tags' positions on the truth's clock (the ranges' own where no lag was learnt)."""
+
+    t_s: Floats  # (E,)
+    positions: Floats  # (E, K, 3) m; NaN before the first fix
+    bound_m: Floats  # (E, K) the truth is nearer than this, all but 1 % of the time
+    anchors_used: NDArray[np.int64]  # (E, K) anchors whose range was believed at that instant
+
+
+def require_solvable(anchors: Floats, height_m: float | None) -> None:
+    """Refuse anchors that cannot tell where a tag is.
+
+    Raises:
+        InputError: too few, in one line, or in one plane with no height given.
+    """
+    least = 3 if height_m is not None else 4
+    if len(anchors) < 3:
+        raise InputError(f"{len(anchors)} anchors are too few", "at least three", "name more with --anchors")
+    flat = anchors[:, : 2 if height_m is not None else 3]
+    spread = np.linalg.svd(flat - flat.mean(axis=0), compute_uv=False)
+    if height_m is None and (len(anchors) < least or spread[-1] < FLAT):
+        remedy = "give the tag's height with --height"
+        raise InputError("the anchors lie in one plane", "four or more that do not", remedy)
+    if spread[-1] < FLAT:
+        raise InputError("the anchors stand in one line", "three that make a triangle", "name others with --anchors")
+
+
+def locate(
+    ranges: Ranges,
+    calibration: Calibration,
+    height_m: float | None = None,
+    progress: Callable[[float], None] = lambda share: None,
+) -> Track:
+    """Locate every tag, causally.
+
+    Args:
+        ranges: of all tags to the anchors that may be used.
+        calibration: what is known of the links; its rig joins the tags, without one each goes alone.
+        height_m: of the tags, where the anchors lie in one plane.
+        progress: told the share that is done.
+
+    Raises:
+        InputError: the anchors cannot tell where a tag is.
+    """
+    require_solvable(ranges.anchors, height_m)
+    tags = list(range(ranges.range_m.shape[2]))
+    groups = [tags] if calibration.rig is not None else [[k] for k in tags]
+    tracks = []
+    for number, group in enumerate(groups):
+        progress(number / len(groups))
+        rig = calibration.rig or SINGLE
+        tracks.append(_Follower(ranges.of_tags(group), rig, _of_tags(calibration.links, group), height_m).track())
+    stacked = [np.concatenate([getattr(t, name) for t in tracks], axis=1) for name in Track.__slots__[1:]]
+    return Track(ranges.t_s + calibration.lag_s, stacked[0], stacked[1], stacked[2])
+
+
+def _of_tags(links: LinkModel, tags: list[int]) -> LinkModel:
+    return replace(links, bias_m=links.bias_m[:, tags], pattern_m=links.pattern_m[tags])
+
+
+class _Follower:
+    """Follows one rig; holds what one instant leaves to the next."""
+
+    def __init__(self, ranges: Ranges, rig: Rig, links: LinkModel, height_m: float | None) -> None:
+        self._ranges, self._rig, self._links = ranges, rig, links
+        self._height_m = height_m if height_m is None else float(height_m - rig.offsets[:, 2].mean())
+        self._state: RigState | None = None
+        self._last_fit_s = -np.inf
+        self._tried_s = -np.inf
+        self._seen_s = np.full(ranges.range_m.shape[1:], -np.inf)  # (A, K) when each link last gave a range
+        self._latest_m = np.full(ranges.range_m.shape[1:], np.nan)
+        self._fitted_s = np.full(len(ranges.anchors), -np.inf)  # (A,) when each anchor was last believed
+
+    def track(self) -> Track:
+        """Every instant in turn."""
+        instants, _, tags = self._ranges.range_m.shape
+        positions, bound = np.full((instants, tags, 3), np.nan), np.full((instants, tags), np.nan)
+        used = np.zeros((instants, tags), dtype=np.int64)
+        for i, (t_s, range_m) in enumerate(zip(self._ranges.t_s.tolist(), self._ranges.range_m, strict=True)):
+            used[i] = self._step(t_s, range_m).sum(axis=0)
+            if self._state is not None:
+                positions[i] = self._rig.positions(self._state.middle, self._state.yaw_rad)
+                bound[i] = self._bound_m(self._state)
+        return Track(self._ranges.t_s, positions, bound, used)
+
+    def _step(self, t_s: float, range_m: Floats) -> NDArray[np.bool_]:
+        """Take one instant's ranges; returns which were believed."""
+        there = np.isfinite(range_m)
+        self._seen_s[there], self._latest_m[there] = t_s, range_m[there]
+        if t_s - self._last_fit_s > PATIENCE_S and t_s - self._tried_s >= RETRY_S:
+            self._tried_s = t_s
+            self._state = self._start(t_s) or self._state
+        if self._state is None:
+            return np.zeros(range_m.shape, dtype=bool)
+        state = predicted(self._state, self._rig, t_s)
+        self._state, believed = updated(state, self._rig, self._links, self._ranges.anchors, range_m)
+        if believed.any() or not there.any():
+            self._last_fit_s = t_s
+        self._fitted_s[believed.any(axis=1)] = t_s
+        return believed
+
+    def _start(self, t_s: float) -> RigState | None:
+        """A state from the latest ranges alone, where enough tags can be solved."""
+        recent = np.where(t_s - self._seen_s <= START_MEMORY_S, self._latest_m, np.nan) - self._links.bias_m
+        fixes = [solve_position(self._ranges.anchors, column, START_GATE_M, self._height_m) for column in recent.T]
+        tags = np.array([np.full(3, np.nan) if fix is None else fix.position for fix in fixes])
+        if np.isfinite(tags).all(axis=1).sum() < (2 if self._rig.has_direction else 1):
+            return None
+        return started(t_s, *self._rig.pose(tags), self._height_m)
+
+    def _bound_m(self, state: RigState) -> Floats:
+        """3.5 √tr(P + W): P what the filter believes; W what the links' slow wandering does, which no filter sees.
+
+        W = (U'U / w² + 1)⁻¹ with the unit vectors U from the anchors that fitted within the last second, one each:
+        the tags of a rig are not taken to err independently.
+        """
+        sight = self._fitted_s >= state.t_s - SIGHT_MEMORY_S
+        away = (state.middle - self._ranges.anchors[sight])[:, : state.dimensions]
+        unit = away / np.linalg.norm(state.middle - self._ranges.anchors[sight], axis=1)[:, None]
+        wander = np.linalg.inv(unit.T @ unit / self._links.wander_m**2 + np.eye(state.dimensions))
+        believed = np.trace(tag_covariances(state, self._rig), axis1=1, axis2=2)
+        return np.asarray(BOUND_SIGMAS * np.sqrt(believed + np.trace(wander)))
