@@ -156,7 +156,8 @@ def _read(path: Path, form: type[Form]) -> Form:
     try:
         text = path.read_text("utf-8")
     except (OSError, UnicodeDecodeError) as error:
-        raise InputError(f"The configuration '{path}' cannot be read: {error}", "a TOML file") from None
+        why = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
+        raise InputError(f"The configuration '{path}' cannot be read: {why}", "a TOML file", "check --config") from None
     try:
         content = msgspec.json.decode(text) if path.suffix == ".json" else tomllib.loads(text)
         return msgspec.convert(content, form)
@@ -175,7 +176,9 @@ def _bad_value(path: Path, message: str, form: type[Form]) -> InputError:
         known = ", ".join(field.name for field in msgspec.structs.fields(_form_at(form, inside)))
         key = f"{inside}.{unknown[1]}".lstrip(".")
         return InputError(f"'{path}': there is no key '{key}'", f"one of {known}")
-    return InputError(f"'{path}': the value of '{inside or 'the file'}' cannot be used", expected)
+    return InputError(
+        f"'{path}': the value of '{inside or 'the file'}' cannot be used", expected.removeprefix("Expected ")
+    )
 
 
 def _form_at(form: type[Any], inside: str) -> type[Any]:

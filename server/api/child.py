@@ -87,7 +87,6 @@ class Child:
             code = await self._process.wait()
             self.restarts += 1
             words = self._last_words() or f"it ended with code {code}"
-            log.error("%s died: %s", self.name, words)
             self._on_death(words)
             pause_s = FIRST_PAUSE_S if time.monotonic() - started_s > GOOD_RUN_S else pause_s
             await asyncio.sleep(pause_s)

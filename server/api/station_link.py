@@ -149,13 +149,12 @@ class StationLink:
         except TimeoutError:
             self.trouble = self.trouble or f"it did not come up within {START_WITHIN_S:.0f} s"
         if self.up is None:
-            raise MachineError(
-                f"The station could not start: {self.trouble}",
-                "",
-                f"mend that and start again; its log is {self._data / 'logs' / 'station.log'}",
-            )
+            log_path = self._data / "logs" / "station.log"
+            raise MachineError(f"The station could not start: {self.trouble.rstrip('.')}. Its log is {log_path}")
 
     def _died(self, words: str) -> None:
+        if self._is_up.is_set():  # before that, whoever starts the service is told why it cannot
+            log.error("the station died: %s", words)
         self.up, self.latest, self.trouble = None, None, words
         self._is_up.set()  # whoever waits for the start need not wait any longer
         for answer in self._waiting.values():

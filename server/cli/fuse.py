@@ -12,7 +12,7 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from fusion.estimation import METHODS
 from fusion.offline import FusedRecording, fuse_recording
 from fusion.recording.reader import read_recording
-from server.cli.fused_files import write_fused
+from server.cli.fused_files import make_folder, write_fused
 
 
 def fuse(
@@ -30,6 +30,7 @@ def fuse(
     """Align, fuse and mirror a recording; mounting and clocks need not be known."""
     console = Console(stderr=True)
     source = read_recording(recording)
+    make_folder(out)
     with _progress(console) as progress:
         bar = progress.add_task(f"{source.name}: {method}", total=1.0)
         fused = fuse_recording(

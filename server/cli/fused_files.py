@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import csv
 import json
+import os
 import platform
 from collections.abc import Iterator
+from errno import EACCES
 from pathlib import Path
 
 import numpy as np
@@ -36,18 +38,35 @@ ANGLE_COLUMNS = (
 )
 
 
+def make_folder(folder: Path) -> None:
+    """Make the folder for the files; call it before the work, so that nothing is worked out in vain.
+
+    Raises:
+        InputError: it cannot be made or written to.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise _not_written(folder, error) from error
+    if not os.access(folder, os.W_OK):
+        raise _not_written(folder, PermissionError(EACCES, os.strerror(EACCES)))
+
+
+def _not_written(folder: Path, error: OSError) -> InputError:
+    return InputError(f"{folder} cannot be written: {error.strerror}", "a folder of yours", "choose another --out")
+
+
 def write_fused(fused: FusedRecording, folder: Path) -> None:
     """Write the files, replacing older ones.
 
     Args:
         fused: what the pipeline said.
-        folder: made if it does not exist.
+        folder: as `make_folder` left it.
 
     Raises:
-        InputError: the folder cannot be written.
+        InputError: the files cannot be written.
     """
     try:
-        folder.mkdir(parents=True, exist_ok=True)
         (folder / "fused.csv").write_text("".join(_joint_lines(fused)), encoding="utf-8")
         with (folder / "angles.csv").open("w", newline="", encoding="utf-8") as file:
             writer = csv.writer(file, lineterminator="\n")
@@ -56,9 +75,7 @@ def write_fused(fused: FusedRecording, folder: Path) -> None:
         report = json.dumps(_report(fused), indent=1, allow_nan=False)
         (folder / "report.json").write_text(report + "\n", encoding="utf-8")
     except OSError as error:
-        raise InputError(
-            f"{folder} cannot be written: {error.strerror}", "a folder of yours", "choose another --out"
-        ) from error
+        raise _not_written(folder, error) from error
 
 
 def _joint_lines(fused: FusedRecording) -> Iterator[str]:
