@@ -56,10 +56,12 @@ class GateConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_field
     """A hold for lost sensors that ends within this time resumes by itself (SR-5)."""
     resume_within_rad: Radians = 0.5
     """... if the target is no further than this from the arm."""
-    engage_within_rad: Radians = 1.0
+    engage_within_rad: Radians = 1.57
     """Enable and resume are refused while the target is further than this from the arm, in any joint (SR-6)."""
     blend_s: Annotated[float, Meta(ge=2)] = 2.0
-    """Blend-in from the measured position to the target (SR-6)."""
+    """Least time of the blend-in from the measured position to the target (SR-6)."""
+    blend_rad_s: Radians = 0.5
+    """Mean speed of the blend-in: where the target is far, it takes longer."""
     soft_margin_rad: Radians = 0.1
     """Commands keep this far inside the patient's range (SR-1)."""
     jerk_time_s: Seconds = 0.04

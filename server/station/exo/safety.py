@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from math import inf
 
 from server.config import GateConfig
 from server.messages import EXO_JOINTS, DriveState, Wish
@@ -32,6 +33,8 @@ class SafetyState:
     """The last tick followed the target."""
     blend: float = 0.0
     """0..1 of the blend-in (SR-6)."""
+    blend_over_s: float = inf
+    """How long the blend-in takes."""
     blend_from: Joints = ZERO
     thaw: Joints = ZERO
     """0..1 per joint: a joint that was held comes back as slowly as a blend-in."""
@@ -80,7 +83,7 @@ def step(
     state = replace(state, gate=gate.watch(state.gate, state.facts, config, now_s), last_s=now_s)
     dt_s = min(max(elapsed_s, SHORTEST_STEP_S), LONGEST_STEP_S)
     if state.gate.state is DriveState.ENGAGED and target is not None:
-        begun = state if state.following else _begun(state, inputs.reading)
+        begun = state if state.following else _begun(state, inputs, evidence.distance_rad(target, inputs, free), config)
         return _follow(begun, inputs, target, free, dt_s, config)
     return _rest(replace(state, following=False, blend=0.0), inputs, dt_s)
 
@@ -120,14 +123,16 @@ def _silence(inputs: SafetyInputs, elapsed_s: float, config: GateConfig) -> str:
     return f"The control loop stood still for {elapsed_s:.2f} s." if elapsed_s > config.stale_s else ""
 
 
-def _begun(state: SafetyState, reading: DriveReading) -> SafetyState:
-    """The first set-point is where the arm is (SR-6)."""
+def _begun(state: SafetyState, inputs: SafetyInputs, apart_rad: Joints, config: GateConfig) -> SafetyState:
+    """The first set-point is where the arm is; the further the target, the longer the way there (SR-6)."""
+    here = inputs.reading.angle_rad
     return replace(
         state,
-        motions=tuple(Motion(angle) for angle in reading.angle_rad),
+        motions=tuple(Motion(angle) for angle in here),
         following=True,
         blend=0.0,
-        blend_from=reading.angle_rad,
+        blend_over_s=max(config.blend_s, max(apart_rad) / config.blend_rad_s),
+        blend_from=here,
         thaw=ONE,
     )
 
@@ -140,8 +145,8 @@ def _follow(
     dt_s: float,
     config: GateConfig,
 ) -> tuple[SafetyState, DriveCommand]:
+    blend = min(state.blend + dt_s / state.blend_over_s, 1.0)
     share = dt_s / config.blend_s
-    blend = min(state.blend + share, 1.0)
     thaw = tuple(min(thawed + share, 1.0) if speed else 0.0 for thawed, speed in zip(state.thaw, free, strict=True))
     speed = tuple(f * t for f, t in zip(free, thaw, strict=True))
     eased = blend * blend * (3 - 2 * blend)

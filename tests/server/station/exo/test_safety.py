@@ -293,6 +293,19 @@ def test_sr6_the_first_set_point_is_the_measured_position_and_the_step_takes_two
     assert course == sorted(course)
 
 
+def test_sr6_a_far_target_is_blended_in_for_longer() -> None:
+    wanted = target(moved(0.0, 0.0, 0.0, 1.15))
+    rig = Rig()
+    rig.run(0.05, wanted)
+    assert rig.wish(Enable(number=1)) == ""
+    rig.tick(wanted)
+    taken_s = 0.0
+    while rig.state.blend < 1.0:
+        rig.tick(wanted)
+        taken_s += DT_S
+    assert taken_s == pytest.approx(1.15 / CONFIG.blend_rad_s, abs=0.03)
+
+
 def test_sr6_enable_is_refused_while_the_target_is_far_and_says_what_to_do() -> None:
     rig = Rig()
     rig.run(0.05, target((*AT_REST[:3], AT_REST[3] + CONFIG.engage_within_rad + 0.1)))
