@@ -101,6 +101,8 @@ def service(data: Path) -> Iterator[httpx.Client]:
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:  # noqa: S603 (our own command)
         try:
             address = process.stdout.readline().strip() if process.stdout else ""
+            if not address:
+                sys.exit("The service could not start; it said why above.")
             with httpx.Client(base_url=f"{address}/api", timeout=30) as client:
                 client.post("/setup", json={"name": "Dr. Lin", "password": "three quiet herons"}).raise_for_status()
                 yield client

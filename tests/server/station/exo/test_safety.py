@@ -10,7 +10,7 @@ import msgspec
 import pytest
 from station_samples import patient_limits
 
-from server.config import StationConfig
+from server.config import GateConfig, StationConfig
 from server.messages import DriveState, Enable, Reset, Resume, Stop, Wish
 from server.station.exo import safety
 from server.station.exo.driver import ZERO, DriveCommand, DriveMode, DriveReading
@@ -50,12 +50,13 @@ class Rig:
     t_s: float = 0.0
     command: DriveCommand = field(default_factory=lambda: DriveCommand(DriveMode.HOLD, AT_REST, ZERO, ""))
     reading: DriveReading = field(default_factory=lambda: DriveReading(0.0, AT_REST, ZERO, ZERO))
+    config: GateConfig = CONFIG
 
     def tick(self, wanted: JointTarget | None, age_s: float = 0.0, **change: object) -> DriveCommand:
         self.t_s += DT_S
         self.reading = self.drive.read(self.t_s)
         inputs = SafetyInputs(self.reading, wanted, age_s, 0.0, LIMITS, BOXES)
-        self.state, self.command = safety.step(self.state, replace(inputs, **change), CONFIG, self.t_s)
+        self.state, self.command = safety.step(self.state, replace(inputs, **change), self.config, self.t_s)
         self.drive.command(self.command, self.t_s)
         return self.command
 
@@ -307,8 +308,8 @@ def test_sr6_a_far_target_is_blended_in_for_longer() -> None:
 
 
 def test_sr6_enable_is_refused_while_the_target_is_far_and_says_what_to_do() -> None:
-    rig = Rig()
-    rig.run(0.05, target((*AT_REST[:3], AT_REST[3] + CONFIG.engage_within_rad + 0.1)))
+    rig = Rig(config=msgspec.structs.replace(CONFIG, engage_within_rad=1.0))
+    rig.run(0.05, target((*AT_REST[:3], AT_REST[3] + 1.1)))
     refusal = rig.wish(Enable(number=1))
     assert "too far" in refusal
     assert "elbow" in refusal
