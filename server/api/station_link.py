@@ -65,13 +65,6 @@ class StationLink:
         """The station's process number."""
         return None if self._station is None else self._station.pid
 
-    @property
-    def folder(self) -> Path:
-        """The private folder of the channels."""
-        if self._folder is None:
-            raise RefusedError("the station has not been started")
-        return self._folder
-
     async def open(self) -> None:
         """Start the station and wait until it listens.
 

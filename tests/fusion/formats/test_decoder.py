@@ -207,7 +207,7 @@ def test_a_sender_that_starts_anew_is_heard_again() -> None:
 
 
 def _kinect(address: str, *arguments: object, tags: str = "fffs") -> bytes:
-    return write(address, tags, *arguments)  # type: ignore[arg-type]
+    return write(address, tags, *arguments)  # type: ignore[arg-type]  # wrong types are the point
 
 
 HEAD = "/bodies/1/joints/Head"

@@ -55,7 +55,7 @@ def test_how_sensors_are_turned_on_the_arm_does_not_matter(simulated: SimulatedA
         replace(imu, gyro_rad_s=turn.apply(imu.gyro_rad_s), accel_m_s2=turn.apply(imu.accel_m_s2))
         for imu, turn in zip(simulated.sensors, turns, strict=True)
     )
-    again = track_simulated(replace(simulated, sensors=remounted))  # type: ignore[arg-type]
+    again = track_simulated(replace(simulated, sensors=remounted))  # type: ignore[arg-type]  # three of them, as the field wants
     assert_allclose(again.positions, track_simulated(simulated).positions, atol=5e-3)
 
 

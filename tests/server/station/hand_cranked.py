@@ -87,7 +87,7 @@ class HandCranked:
             self.source,
             Perception(PipelineSettings(Side.LEFT)),
             self.drive,
-            self.mailbox,  # type: ignore[arg-type]
+            self.mailbox,  # type: ignore[arg-type]  # has the methods that are called
             demonstration,
             clock=lambda: self.now_s,
         )

@@ -17,7 +17,7 @@ from server.station.sources.udp import UdpSource
 
 
 def _config(**change: object) -> SensorsConfig:
-    return SensorsConfig(**{"ports": {"any": 0}, **change})  # type: ignore[arg-type]
+    return SensorsConfig(**{"ports": {"any": 0}, **change})  # type: ignore[arg-type]  # any field
 
 
 @pytest.fixture

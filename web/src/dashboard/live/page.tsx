@@ -14,6 +14,7 @@ import { EndQuestion } from "./end-question";
 import { Exo } from "./exo";
 import { useFeed } from "./feed";
 import "./live.css";
+import "./live-small.css";
 import { Sensors } from "./sensors";
 import { StateBanner } from "./state-banner";
 import { useStopKey } from "./stop-key";
