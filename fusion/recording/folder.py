@@ -149,7 +149,7 @@ def _samples(table: Table, sensor: str) -> tuple[SkeletonSample, ...]:
     joint = table.codes("joint", INDEX, f"one of the joint names of Kinect v2: {' '.join(INDEX)}")
     state = table.codes("state", _STATES, "0 (lost), 1 (inferred) or 2 (tracked)")
     points = _points(table, state == 0)
-    bodies, body = np.unique(np.array(table.text("body"), dtype=str), return_inverse=True)
+    names, body = table.names("body")
     frame_t_s, frame_body, frame = _frames(t_s, body)
     _refuse_repeats(table, frame * JOINT_COUNT + joint)
     positions = np.full((len(frame_t_s), JOINT_COUNT, 3), np.nan)
@@ -157,7 +157,6 @@ def _samples(table: Table, sensor: str) -> tuple[SkeletonSample, ...]:
     positions[frame, joint], states[frame, joint] = points, state
     positions.setflags(write=False)
     states.setflags(write=False)
-    names = [str(name) for name in bodies]
     return tuple(
         SkeletonSample(sensor, names[b], t, t, positions[i], states[i])
         for i, (t, b) in enumerate(zip(frame_t_s.tolist(), frame_body.tolist(), strict=True))
@@ -166,7 +165,7 @@ def _samples(table: Table, sensor: str) -> tuple[SkeletonSample, ...]:
 
 def _times(table: Table) -> Floats:
     t_s = table.numbers("t_s")
-    table.require(np.isfinite(t_s), lambda row: f"t_s is '{table.text('t_s')[row]}'", "a time in seconds")
+    table.require(np.isfinite(t_s), lambda row: f"t_s is '{table.field('t_s', row)}'", "a time in seconds")
     return t_s
 
 
@@ -191,10 +190,12 @@ def _frames(t_s: Floats, body: np.ndarray) -> tuple[Floats, np.ndarray, np.ndarr
 
 
 def _refuse_repeats(table: Table, key: np.ndarray) -> None:
-    _, first = np.unique(key, return_index=True)
-    alone = np.zeros(len(key), dtype=bool)
-    alone[first] = True
-    table.require(alone, lambda _: "this joint is there twice", "one row per t_s, body and joint")
+    """Refuse the first row whose `key`, from 0 on, was there before."""
+    if (np.bincount(key) > 1).any():
+        _, first = np.unique(key, return_index=True)
+        alone = np.zeros(len(key), dtype=bool)
+        alone[first] = True
+        table.require(alone, lambda _: "this joint is there twice", "one row per t_s, body and joint")
 
 
 # ---------------------------------------------------------------- truth

@@ -51,7 +51,7 @@ def _rising_times(table: Table) -> Floats:
     t_s = table.numbers("t_s")
     later = np.isfinite(t_s)
     later[1:] &= np.diff(t_s) > 0
-    table.require(later, lambda row: f"t_s is '{table.text('t_s')[row]}'", "a later time than in the line before")
+    table.require(later, lambda row: f"t_s is '{table.field('t_s', row)}'", "a later time than in the line before")
     return t_s
 
 
