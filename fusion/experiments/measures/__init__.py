@@ -1,0 +1,1 @@
+"""What experiments measure: pure functions of recordings and methods, without tables or pictures."""
