@@ -8,10 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from fusion.errors import RecordingError
+from fusion.evaluation.angle_scores import AngleErrors, AngleScore, angle_errors, joined_angles, score_angles
 from fusion.evaluation.scores import Errors, Score, errors_of, joined, score, truth_at
 from fusion.messages import Floats
 from fusion.offline import FusedRecording, fuse_recording
-from fusion.recording.recording import Recording, TruthStream
+from fusion.recording.recording import Recording, Trouble, TruthStream
 from fusion.skeleton import JOINTS, Side, arm
 
 SETTLE_S = 2.0
@@ -42,6 +43,9 @@ class Run:
     healthy_arm: Score
     """Shoulder, elbow and wrist together."""
     healthy_arm_errors: Errors
+    angles: dict[str, AngleScore]
+    """The healthy arm's, by the names of `angle_scores.ROWS`; empty where the true trunk or arm is not known."""
+    angle_errors: AngleErrors
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +85,7 @@ def evaluate_recording(
     runs = []
     for k, way in enumerate(ways):
         fused = fuse_recording(recording, way.method, causal=way.causal, only_sensor=way.only_sensor)
-        runs.append(_scored(way, fused, truth))
+        runs.append(_scored(way, fused, truth, recording.events))
         progress((k + 1) / len(ways))
     return Evaluation(recording.name, _side(recording), tuple(runs))
 
@@ -93,6 +97,15 @@ def pooled(evaluations: Sequence[Evaluation]) -> dict[Way, Score]:
         for run in evaluation.runs:
             by_way.setdefault(run.way, []).append(run.healthy_arm_errors)
     return {way: score(joined(parts)) for way, parts in by_way.items()}
+
+
+def pooled_angles(evaluations: Sequence[Evaluation]) -> dict[Way, dict[str, AngleScore]]:
+    """The healthy arm's angles over all recordings together, by way, in the order of the runs."""
+    by_way: dict[Way, list[AngleErrors]] = {}
+    for evaluation in evaluations:
+        for run in evaluation.runs:
+            by_way.setdefault(run.way, []).append(run.angle_errors)
+    return {way: score_angles(joined_angles(parts)) for way, parts in by_way.items()}
 
 
 def _truth(recording: Recording) -> TruthStream:
@@ -109,7 +122,7 @@ def _side(recording: Recording) -> Side:
     return recording.healthy_side or Side.RIGHT
 
 
-def _scored(way: Way, fused: FusedRecording, truth: TruthStream) -> Run:
+def _scored(way: Way, fused: FusedRecording, truth: TruthStream, events: tuple[Trouble, ...]) -> Run:
     settled = fused.t_s >= fused.t_s[0] + SETTLE_S
     true_positions = truth_at(truth, fused.t_s)
     errors = [_joint_errors(fused, true_positions, settled, joint) for joint in range(len(JOINTS))]
@@ -121,7 +134,8 @@ def _scored(way: Way, fused: FusedRecording, truth: TruthStream) -> Run:
             "check its truth stream and 'healthy_side'",
         )
     joints = {JOINTS[joint]: score(found) for joint, found in enumerate(errors) if len(found.distance_m)}
-    return Run(way, joints, score(healthy), healthy)
+    angles = angle_errors(fused.healthy, true_positions, fused.t_s, fused.healthy_side, events, settled)
+    return Run(way, joints, score(healthy), healthy, score_angles(angles), angles)
 
 
 def _joint_errors(fused: FusedRecording, truth: Floats, settled: np.ndarray, joint: int) -> Errors:

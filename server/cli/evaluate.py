@@ -6,6 +6,7 @@ import json
 import sys
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict
+from math import isnan
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -17,8 +18,9 @@ from rich.table import Table
 
 from fusion.errors import InputError, MachineError
 from fusion.estimation import METHODS
-from fusion.evaluation.markdown import HEADINGS, cells, page, title
-from fusion.evaluation.runs import Evaluation, Way, evaluate_recording, pooled, ways_of
+from fusion.evaluation.angle_scores import AngleScore
+from fusion.evaluation.markdown import ANGLE_HEADINGS, ANGLE_LEGEND, HEADINGS, angle_cells, cells, page, title
+from fusion.evaluation.runs import Evaluation, Way, evaluate_recording, pooled, pooled_angles, ways_of
 from fusion.evaluation.scores import Score
 from fusion.recording.reader import Recording, read_recording
 from server.cli.orientation_scores import orientation_table, orientations_as_json, score_orientation
@@ -98,8 +100,11 @@ def _show(console: Console, evaluations: Sequence[Evaluation]) -> None:
                 heading = f"{evaluation.recording}: {run.way.name}\n{title(run.way.causal)}"
                 console.print(_table(heading, "joint", run.joints.items()))
         _show_ways(console, evaluation.recording, [(run.way, run.healthy_arm) for run in evaluation.runs])
+    together = evaluations[0].recording if len(evaluations) == 1 else f"{len(evaluations)} recordings together"
     if len(evaluations) > 1:
-        _show_ways(console, f"{len(evaluations)} recordings together", list(pooled(evaluations).items()))
+        _show_ways(console, together, list(pooled(evaluations).items()))
+    if evaluations:
+        _show_angles(console, together, pooled_angles(evaluations))
 
 
 def _show_ways(console: Console, name: str, scores: Sequence[tuple[Way, Score]]) -> None:
@@ -109,17 +114,32 @@ def _show_ways(console: Console, name: str, scores: Sequence[tuple[Way, Score]])
             console.print(_table(f"{name}, healthy arm\n{title(causal)}", "method", rows))
 
 
+def _show_angles(console: Console, name: str, by_way: dict[Way, dict[str, AngleScore]]) -> None:
+    for way, scores in by_way.items():
+        if scores and way.only_sensor is None:
+            table = _empty(f"{name}, {way.name}: angles\n{title(way.causal)}", "angle", ANGLE_HEADINGS, ANGLE_LEGEND)
+            for angle, score in scores.items():
+                table.add_row(angle, *angle_cells(score))
+            console.print(table)
+
+
 def _table(heading: str, first: str, rows: Iterable[tuple[str, Score]]) -> Table:
-    table = Table(title=heading, caption="mm; inside: share of instants within the reported bound", box=SIMPLE_HEAD)
-    table.add_column(first, no_wrap=True)
-    for name in HEADINGS:
-        table.add_column(name, justify="right", no_wrap=True)
+    table = _empty(heading, first, HEADINGS, "mm; inside: share of instants within the reported bound")
     for name, score in rows:
         table.add_row(name, *cells(score))
     return table
 
 
+def _empty(heading: str, first: str, columns: Sequence[str], caption: str) -> Table:
+    table = Table(title=heading, caption=caption, box=SIMPLE_HEAD)
+    table.add_column(first, no_wrap=True)
+    for name in columns:
+        table.add_column(name, justify="right", no_wrap=True)
+    return table
+
+
 def _as_json(evaluations: Sequence[Evaluation]) -> dict[str, Any]:
+    angles = pooled_angles(evaluations)
     return {
         "recordings": [
             {
@@ -130,14 +150,29 @@ def _as_json(evaluations: Sequence[Evaluation]) -> dict[str, Any]:
                         **_way(run.way),
                         "joints": {name: asdict(score) for name, score in run.joints.items()},
                         "healthy_arm": asdict(run.healthy_arm),
+                        "angles": _angles_as_json(run.angles),
                     }
                     for run in evaluation.runs
                 ],
             }
             for evaluation in evaluations
         ],
-        "pooled": [{**_way(way), "healthy_arm": asdict(score)} for way, score in pooled(evaluations).items()],
+        "pooled": [
+            {**_way(way), "healthy_arm": asdict(score), "angles": _angles_as_json(angles[way])}
+            for way, score in pooled(evaluations).items()
+        ],
     }
+
+
+def _angles_as_json(scores: dict[str, AngleScore]) -> dict[str, Any]:
+    """Scores by row; a share of no instants is null."""
+    return {name: _without_nan(asdict(score)) for name, score in scores.items()}
+
+
+def _without_nan(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {key: _without_nan(part) for key, part in value.items()}
+    return None if isinstance(value, float) and isnan(value) else value
 
 
 def _way(way: Way) -> dict[str, Any]:

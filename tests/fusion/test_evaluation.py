@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import cache
+from math import pi
 from pathlib import Path
 
 import numpy as np
@@ -11,13 +12,23 @@ import pytest
 
 from fusion.errors import RecordingError
 from fusion.estimation import METHODS
+from fusion.evaluation.angle_scores import (
+    HOLD_FROM_RAD,
+    SLOW_FROM_RAD,
+    AngleScore,
+    Engaged,
+    angle_errors,
+    score_angles,
+    true_angles,
+)
 from fusion.evaluation.markdown import page
-from fusion.evaluation.runs import Evaluation, Way, evaluate_recording, pooled, ways_of
+from fusion.evaluation.runs import Evaluation, Way, evaluate_recording, pooled, pooled_angles, ways_of
 from fusion.evaluation.scores import Errors, Score, errors_of, joined, score, truth_at
-from fusion.messages import SkeletonSample
+from fusion.kinematics.angles import direction_from_swing, forearm_from_twist
+from fusion.messages import Floats, JointAngles, SkeletonSample
 from fusion.recording.reader import read_recording
-from fusion.recording.recording import Recording, SkeletonStream, TruthStream
-from fusion.skeleton import INDEX, JOINT_COUNT, JOINTS, Side
+from fusion.recording.recording import Recording, SkeletonStream, Trouble, TruthStream
+from fusion.skeleton import INDEX, JOINT_COUNT, JOINTS, Side, arm
 from fusion.virtual_patient.sensor import NO_NOISE, TABLE1
 from fusion.virtual_patient.trial import virtual_recording
 
@@ -120,10 +131,92 @@ def test_a_sensor_that_is_off_by_five_centimetres_scores_fifty_millimetres(metho
     assert run.healthy_arm.frames_lost == 0
 
 
+def told(swing: float, elbow: float, twist: float, bound: float = 0.2) -> JointAngles:
+    """An arm raised straight ahead by `swing` and turned by `twist`, with one bound for all."""
+    direction = direction_from_swing(pi / 2, swing)
+    wrist = direction + forearm_from_twist(direction, twist, elbow)
+    found = true_angles(standing(np.array([np.zeros(3), direction, wrist])), Side.RIGHT)
+    assert found is not None
+    return replace(found, swing_bound_rad=bound, twist_bound_rad=bound, elbow_bound_rad=bound)
+
+
+def standing(arm_points: Floats) -> Floats:
+    """(25, 3) of an upright person with a right arm of shoulder, elbow and wrist; x to the right, z to the back."""
+    positions = np.full((JOINT_COUNT, 3), np.nan)
+    positions[INDEX["SpineBase"]], positions[INDEX["SpineShoulder"]] = (-0.2, -0.5, 0.0), (-0.2, 0.0, 0.0)
+    positions[INDEX["ShoulderLeft"]] = (-0.4, 0.0, 0.0)
+    positions[list(arm(Side.RIGHT))[:3]] = arm_points
+    return positions
+
+
+def judged(angles: list[JointAngles | None], events: tuple[Trouble, ...] = ()) -> dict[str, AngleScore]:
+    """Against an arm raised by 1 rad with a right-angled elbow, ten instants a second."""
+    direction = direction_from_swing(pi / 2, 1.0)
+    true = standing(np.array([np.zeros(3), direction, direction + forearm_from_twist(direction, 0.0, pi / 2)]))
+    count = len(angles)
+    truth, all_of_them = np.broadcast_to(true, (count, *true.shape)), np.ones(count, dtype=np.bool_)
+    return score_angles(angle_errors(tuple(angles), truth, np.arange(count) / 10, Side.RIGHT, events, all_of_them))
+
+
+def test_angles_are_scored_as_one_would_by_hand() -> None:
+    found = judged([told(1.1, pi / 2, 0.0), told(1.0, pi / 2 + 0.3, 0.0), told(1.0, pi / 2, -0.1)])
+    assert found["swing"].max_rad == pytest.approx(0.1)
+    assert found["swing"].rms_rad == pytest.approx(0.1 / np.sqrt(3))
+    assert found["elbow"].max_rad == pytest.approx(0.3)
+    assert found["elbow"].inside_share == pytest.approx(2 / 3)
+    assert found["twist, elbow bent"].max_rad == pytest.approx(0.1)
+    assert found["swing and elbow"].rms_rad == pytest.approx(np.sqrt((0.01 + 0.09) / 3))
+    assert found["all asked for"].inside_share == pytest.approx(2 / 3)
+
+
+def test_an_arm_is_engaged_below_the_hold_threshold_and_at_full_speed_below_the_slow_one() -> None:
+    bounds = (SLOW_FROM_RAD - 0.01, SLOW_FROM_RAD, HOLD_FROM_RAD - 0.01, HOLD_FROM_RAD)
+    found = judged([told(1.0, pi / 2, 0.0, bound) for bound in bounds])["all asked for"].clear
+    assert found == Engaged(4, 0.75, 0.25)
+
+
+def test_an_instant_without_an_angle_is_held_and_says_nothing_of_errors() -> None:
+    found = judged([None, told(1.1, pi / 2, 0.0)])["swing"]
+    assert found.clear == Engaged(2, 0.5, 0.5)
+    assert found.inside_share == 1.0
+    assert found.p50_rad == pytest.approx(0.1)
+
+
+def test_planted_trouble_is_counted_apart() -> None:
+    good, bad = told(1.0, pi / 2, 0.0), told(1.0, pi / 2, 0.0, 1.0)
+    found = judged([good, bad, bad, good], (Trouble("k", "lost", 0.1, 0.2),))["elbow"]
+    assert (found.clear.engaged, found.planted.engaged) == (1.0, 0.0)
+    without = judged([good])["elbow"]
+    assert (without.planted.instants, np.isnan(without.planted.engaged)) == (0, True)
+
+
+def test_a_straight_elbow_is_not_asked_for_its_twist() -> None:
+    direction = direction_from_swing(pi / 2, 1.0)
+    straight = standing(np.array([np.zeros(3), direction, 2 * direction]))
+    found = score_angles(
+        angle_errors((told(1.0, 0.1, 2.0, 0.1),), straight[None], np.zeros(1), Side.RIGHT, (), np.ones(1, np.bool_))
+    )
+    assert set(found) == {"swing", "elbow", "swing and elbow", "all asked for"}
+    assert found["all asked for"].clear.engaged == 1.0
+
+
+def test_a_told_trunk_that_is_turned_counts_as_an_error_of_the_swing() -> None:
+    turned = true_angles(standing(np.array([[0, 0, 0], [0.1, -0.3, 0], [0.3, -0.3, 0]])), Side.RIGHT)
+    assert turned is not None
+    truth = standing(np.array([[0, 0, 0], [0.1, -0.3, 0], [0.3, -0.3, 0]]))
+    truth[INDEX["ShoulderLeft"]] = (-0.4, 0.0, -0.1)
+    found = score_angles(angle_errors((turned,), truth[None], np.zeros(1), Side.RIGHT, (), np.ones(1, np.bool_)))
+    assert found["swing"].max_rad > 0.05
+    assert found["elbow"].max_rad == pytest.approx(0.0)
+
+
 def test_pooling_two_recordings_counts_both() -> None:
     way = Way("kalman", "kalman")
     once, twice = pooled([still()])[way], pooled([still(), still()])[way]
     assert twice == replace(once, instants=2 * once.instants)
+    angles, more = pooled_angles([still()])[way]["swing"], pooled_angles([still(), still()])[way]["swing"]
+    assert more.clear.instants == 2 * angles.clear.instants
+    assert more.max_rad == angles.max_rad
 
 
 def test_without_truth_it_says_what_was_expected() -> None:
@@ -150,6 +243,7 @@ def test_the_page_names_its_command_and_every_way() -> None:
     assert "`mirrorlimb evaluate still`" in text
     for name in (*METHODS, "k alone"):
         assert f"| {name} | 50.0 |" in text
+        assert f"| {name}: swing and elbow |" in text
     assert text.count("| WristLeft |") == 1
 
 

@@ -60,6 +60,8 @@ def test_json_to_standard_output_is_nothing_but_json(tmp_path, monkeypatch, caps
     first = recording["runs"][0]
     assert first["joints"]["WristLeft"]["rms_mm"] == pytest.approx(50.0, abs=0.1)
     assert first["healthy_arm"]["inside_share"] == 1.0
+    assert first["angles"]["swing"]["clear"]["instants"] == 61
+    assert first["angles"]["swing"]["planted"] == {"instants": 0, "engaged": None, "full_speed": None}
 
 
 def test_several_recordings_are_pooled_and_written_as_a_page(tmp_path, monkeypatch, capsys) -> None:
