@@ -8,8 +8,16 @@ import numpy as np
 
 from fusion.align.alignment import SensorAlignment
 from fusion.align.plausible import Fault, handedness_fault
-from fusion.align.space import Moments, Mounting, RobustFit, fit_robustly
-from fusion.align.space_time import CORRELATION_STD_S, alignment_of, clear_offset, fit_space_time, offset_step, refine
+from fusion.align.space import Moments, RobustFit, fit_robustly
+from fusion.align.space_time import (
+    CORRELATION_STD_S,
+    alignment_of,
+    clear_offset,
+    fit_space_time,
+    mounting_of,
+    offset_step,
+    refine,
+)
 from fusion.align.track import BodyTrack, Pairs, pair
 
 WINDOW_S = 10.0
@@ -89,7 +97,7 @@ class AlignmentLearner:
         clear_s = clear_offset(reference, sensor, LONGEST_OFFSET_S)
         self._speeds_offset_s = self._speeds_offset_s if clear_s is None else clear_s
         prior_s = self._speeds_offset_s
-        better = refine(reference, sensor, now.clock_offset_s, 2, LEARNING_FRAMES, _mounting(now), prior_s)
+        better = refine(reference, sensor, now.clock_offset_s, 2, LEARNING_FRAMES, mounting_of(now), prior_s)
         if better is not None and trusted(better):
             self.alignment = better
         if reference.t_s[-1] - (self._first_s or reference.t_s[0]) > WINDOW_S - SETTLE_EVERY_S:
@@ -131,11 +139,11 @@ class AlignmentLearner:
         self, reference: BodyTrack, sensor: BodyTrack, now: SensorAlignment, settled: Moments | None
     ) -> tuple[Pairs, RobustFit]:
         pairs = pair(reference, sensor, now.clock_offset_s, LEARNING_FRAMES)
-        return pairs, fit_robustly(pairs, settled, start=_mounting(now))
+        return pairs, fit_robustly(pairs, settled, start=mounting_of(now))
 
     def _was_moved(self, pairs: Pairs, now: SensorAlignment, t_s: float) -> bool:
         """Whether the recent joints are far apart as aligned but agree under another mounting; then learn anew."""
-        distance = np.linalg.norm(_mounting(now).errors(pairs), axis=2)[pairs.weight > 0]
+        distance = np.linalg.norm(mounting_of(now).errors(pairs), axis=2)[pairs.weight > 0]
         median = float(np.median(distance))
         if median < max(MOVED_FACTOR * now.residual_m, MOVED_LEAST_M):
             return False
@@ -165,12 +173,3 @@ def _renewed(now: SensorAlignment, fit: RobustFit, offset_s: float, frames: int)
 def _news(track: BodyTrack) -> float:
     """How much a look adds to what was known, from next to nothing (standing still) to 1."""
     return float(np.clip(track.path_m() / NEW_POSE_M, LEAST_NEWS, 1.0))
-
-
-def _mounting(alignment: SensorAlignment) -> Mounting:
-    return Mounting(
-        alignment.rotation_sensor_to_reference,
-        alignment.translation_m,
-        alignment.rotation_std_rad,
-        alignment.position_std_m,
-    )

@@ -12,7 +12,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
+from fusion.align.loops import clearly_crossed, distances, robust_weights, weighted_sums
 from fusion.align.track import Pairs
 from fusion.geometry import nearest_rotation
 from fusion.messages import Floats
@@ -24,6 +26,8 @@ TUKEY_WIDTHS = 25.0
 """In median distances: what is further off than this is not that joint."""
 NARROWEST_M = 0.002
 """A median is never taken for smaller than this, so that clean data are not cut to nothing."""
+CLEARLY_CROSSED = 0.6
+"""A frame whose joints are less than this share as far apart with left and right exchanged has them exchanged."""
 MOST_SWAPPED = 0.5
 """A sensor with more exchanged frames than this has its sides exchanged altogether (`plausible` says so)."""
 MOST_ROUNDS = 40
@@ -53,14 +57,7 @@ class Moments:
     @staticmethod
     def of(reference: Floats, sensor: Floats, weight: Floats) -> Moments:
         """Sums over points (N, 3), (N, 3) with weights (N,)."""
-        total = float(weight.sum())
-        if total <= 0.0:
-            return Moments.nothing()
-        mean_reference, mean_sensor = weight @ reference / total, weight @ sensor / total
-        r, s = reference - mean_reference, sensor - mean_sensor
-        weighted = weight[:, None] * s
-        square = float(np.einsum("n,ni,ni->", weight, r, r))
-        return Moments(total, mean_reference, mean_sensor, r.T @ weighted, s.T @ weighted, square)
+        return Moments(*weighted_sums(reference, sensor, weight))
 
     def joined(self, other: Moments) -> Moments:
         """The sums over both sets of points (Chan et al. 1979); the order does not matter."""
@@ -102,8 +99,13 @@ class Mounting:
 
     def errors(self, pairs: Pairs) -> Floats:
         """Reference minus aligned joint (N, J, 3), m."""
-        errors: Floats = pairs.reference - (pairs.sensor @ self.rotation.T + self.translation_m)
+        errors: Floats = pairs.reference - self.aligned(pairs)
         return errors
+
+    def aligned(self, pairs: Pairs) -> Floats:
+        """The sensor's joints in the reference's frame (N, J, 3), m."""
+        turned = pairs.sensor.reshape(-1, 3) @ self.rotation.T + self.translation_m
+        return turned.reshape(pairs.sensor.shape)
 
 
 def mounting(moments: Moments) -> Mounting:
@@ -140,7 +142,7 @@ class RobustFit:
     residual_m: float
     """Median distance over all weighted joints."""
     cutoff_m: float
-    swapped: Floats  # (N,) bool: frames whose left and right were found exchanged
+    swapped: NDArray[np.bool_]  # (N,) frames whose left and right were found exchanged
 
     def moments(self, pairs: Pairs) -> Moments:
         """The sums of the pairs as weighted in this fit, to be settled into a recursion."""
@@ -148,7 +150,7 @@ class RobustFit:
 
 
 def fit_robustly(
-    pairs: Pairs, settled: Moments | None = None, start: Mounting | None = None, rounds: int = MOST_ROUNDS
+    pairs: Pairs, settled: Moments | None = None, start: Mounting | None = None, cutoff_m: float = np.inf
 ) -> RobustFit:
     """Fit a mounting to pairs and to sums settled before.
 
@@ -159,48 +161,41 @@ def fit_robustly(
         pairs: at least four weighted joints in all.
         settled: sums of earlier frames, already weighted.
         start: where to start; the plain least-squares fit when None.
-        rounds: how often at most to weigh anew.
+        cutoff_m: where the cut-off's width starts, as far as any joint is off: that of an earlier fit where `start` is
+            one to nearly the same pairs.
     """
     base = settled or Moments.nothing()
     first = start or mounting(base.joined(_moments(pairs, pairs.weight)))
-    fit = _anneal(pairs, pairs.weight, base, first, rounds)
+    fit = _anneal(pairs, pairs.weight, base, first, 2 * cutoff_m)
     swapped = swapped_frames(pairs, fit.mounting)
     if not swapped.any() or swapped.mean() > MOST_SWAPPED:
         return fit
-    again = _anneal(pairs, np.where(swapped[:, None], 0.0, pairs.weight), base, fit.mounting, rounds)
+    again = _anneal(pairs, np.where(swapped[:, None], 0.0, pairs.weight), base, fit.mounting, 2 * fit.cutoff_m)
     return RobustFit(again.mounting, again.weight, again.residual_m, again.cutoff_m, swapped)
 
 
-def swapped_frames(pairs: Pairs, under: Mounting) -> Floats:
+def swapped_frames(pairs: Pairs, under: Mounting) -> NDArray[np.bool_]:
     """Frames (N,) bool that fit far better once the sensor's left and right are exchanged."""
-    exchanged = Pairs(pairs.reference, pairs.sensor[:, SIDES_SWAPPED], pairs.velocity, pairs.weight)
-    both = np.minimum(pairs.weight, pairs.weight[:, SIDES_SWAPPED]) * (np.arange(len(SIDES_SWAPPED)) != SIDES_SWAPPED)
-    total = np.maximum(both.sum(axis=1), 1e-9)
-    plain = (both * np.linalg.norm(under.errors(pairs), axis=2)).sum(axis=1) / total
-    crossed = (both * np.linalg.norm(under.errors(exchanged), axis=2)).sum(axis=1) / total
-    swapped: Floats = (crossed < 0.6 * plain) & (both > 0).any(axis=1)
-    return swapped
+    return clearly_crossed(pairs.reference, under.aligned(pairs), pairs.weight, SIDES_SWAPPED, CLEARLY_CROSSED)
 
 
 def _moments(pairs: Pairs, weight: Floats) -> Moments:
     return Moments.of(pairs.reference.reshape(-1, 3), pairs.sensor.reshape(-1, 3), weight.ravel())
 
 
-def _anneal(pairs: Pairs, weight: Floats, base: Moments, start: Mounting, rounds: int) -> RobustFit:
+def _anneal(pairs: Pairs, weight: Floats, base: Moments, start: Mounting, cutoff: float) -> RobustFit:
     """Iterate weights and the closed form, halving the cut-off down to its final width."""
-    used = weight.ravel() > 0
+    used = np.flatnonzero(weight > 0)
     r, s, given = pairs.reference.reshape(-1, 3)[used], pairs.sensor.reshape(-1, 3)[used], weight.ravel()[used]
-    rotation, translation, cutoff, sums = start.rotation, start.translation_m, np.inf, base
+    rotation, translation, sums = start.rotation, start.translation_m, base
     kept, median = given, 0.0
-    for _ in range(rounds):
-        error = r - (s @ rotation.T + translation)
-        distance = np.sqrt(np.einsum("ni,ni->n", error, error))
-        median = float(np.median(distance)) if distance.size else 0.0
+    for _ in range(MOST_ROUNDS):
+        distance = distances(r, s, rotation, translation)
+        median = _middle(distance)
         scale = max(median, NARROWEST_M)
         wanted = TUKEY_WIDTHS * scale
         cutoff = max(wanted, min(cutoff / 2, 2 * float(distance.max(initial=wanted))))
-        kept = given * np.clip(1 - (distance / cutoff) ** 2, 0, None) ** 2
-        kept = kept * np.minimum(1, HUBER_WIDTHS * scale / np.maximum(distance, 1e-9))
+        kept = robust_weights(given, distance, cutoff, HUBER_WIDTHS * scale)
         sums = base.joined(Moments.of(r, s, kept))
         before, (rotation, translation) = (rotation, translation), _closed_form(sums)
         if cutoff <= 1.01 * wanted and _same(before, (rotation, translation)):
@@ -208,6 +203,12 @@ def _anneal(pairs: Pairs, weight: Floats, base: Moments, start: Mounting, rounds
     full = np.zeros(weight.size)
     full[used] = kept
     return RobustFit(mounting(sums), full.reshape(weight.shape), median, cutoff, np.zeros(len(weight), dtype=bool))
+
+
+def _middle(distance: Floats) -> float:
+    """The upper median; 0 of nothing."""
+    half = len(distance) // 2
+    return float(np.partition(distance, half)[half]) if len(distance) else 0.0
 
 
 def _same(a: tuple[Floats, Floats], b: tuple[Floats, Floats]) -> bool:

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fusion.align.alignment import SensorAlignment
+from fusion.align.loops import offset_sums
 from fusion.align.space import POINTS_PER_INDEPENDENT, Mounting, RobustFit, fit_robustly
 from fusion.align.timeline import OffsetCandidate, offset_candidates
 from fusion.align.track import BodyTrack, Pairs, pair
@@ -27,6 +28,8 @@ LEAST_CORRELATION = 0.4
 SETTLED_S = 2e-4
 MOST_FRAMES = 1200
 """A long recording is thinned to this many frames, evenly."""
+COARSE_FRAMES = 300
+"""As many are enough until mounting and offset have nearly settled."""
 FEWEST_FRAMES = 15
 
 
@@ -52,14 +55,10 @@ def offset_step(pairs: Pairs, under: Mounting, weight: np.ndarray) -> OffsetStep
         under: the mounting.
         weight: (N, J), 0 for frames that were found swapped.
     """
-    errors = under.errors(pairs)
-    distance = np.linalg.norm(errors, axis=2)
-    kept = weight * np.clip(1 - (distance / OFFSET_CUTOFF_M) ** 2, 0, None) ** 2
-    information = float(np.einsum("nj,nji,nji->", kept, pairs.velocity, pairs.velocity))
-    change = float(np.einsum("nj,nji,nji->", kept, errors, pairs.velocity)) / max(information, 1e-9)
-    variance = float(np.einsum("nj,nj->", kept, distance**2)) / (3 * max(float(kept.sum()), 1e-9))
-    information /= max(variance, OFFSET_NOISE_M**2) * POINTS_PER_INDEPENDENT
-    return OffsetStep(change, information)
+    told, pull, square, total = offset_sums(under.errors(pairs), pairs.velocity, weight, OFFSET_CUTOFF_M)
+    variance = square / (3 * max(total, 1e-9))
+    information = told / (max(variance, OFFSET_NOISE_M**2) * POINTS_PER_INDEPENDENT)
+    return OffsetStep(pull / max(told, 1e-9), information)
 
 
 def fit_space_time(
@@ -88,9 +87,12 @@ def fit_space_time(
     starts = offset_candidates(reference, sensor, longest_s, candidates)
     if not starts or (np.isfinite(longest_s) and starts[0].correlation < LEAST_CORRELATION):
         starts = (OffsetCandidate(0.0, 1.0),)
-    few = most // 4
+    few = min(most, COARSE_FRAMES) // 4
     best = min(starts, key=lambda start: _unlikeness(refine(reference, sensor, start.offset_s, 2, few), start))
-    return refine(reference, sensor, best.offset_s, rounds, most)
+    coarse = refine(reference, sensor, best.offset_s, rounds, min(most, COARSE_FRAMES))
+    if coarse is None or most <= COARSE_FRAMES:
+        return coarse
+    return refine(reference, sensor, coarse.clock_offset_s, rounds, most, mounting_of(coarse), best.offset_s)
 
 
 def clear_offset(reference: BodyTrack, sensor: BodyTrack, longest_s: float) -> float | None:
@@ -125,12 +127,13 @@ def refine(
         prior_s: the offset that the speeds gave, which steadies the result; `offset_s` when None.
     """
     prior_s = offset_s if prior_s is None else prior_s
+    cutoff_m = np.inf
     for _ in range(rounds):
         pairs = pair(reference, sensor, offset_s, most)
         if pairs.frames < FEWEST_FRAMES:
             return None
-        fit = fit_robustly(pairs, start=start)
-        start = fit.mounting
+        fit = fit_robustly(pairs, None, start, cutoff_m)
+        start, cutoff_m = fit.mounting, fit.cutoff_m
         step = offset_step(pairs, fit.mounting, np.where(fit.swapped[:, None], 0.0, pairs.weight))
         change_s = step.steadied(prior_s - offset_s, CORRELATION_STD_S)
         offset_s += change_s
@@ -150,4 +153,14 @@ def alignment_of(fit: RobustFit, offset_s: float, frames: int) -> SensorAlignmen
         frames,
         found.rotation_std_rad,
         found.position_std_m,
+    )
+
+
+def mounting_of(alignment: SensorAlignment) -> Mounting:
+    """Where the sensor stands, without its clock."""
+    return Mounting(
+        alignment.rotation_sensor_to_reference,
+        alignment.translation_m,
+        alignment.rotation_std_rad,
+        alignment.position_std_m,
     )

@@ -9,12 +9,16 @@ from collections import deque
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.fft import irfft, next_fast_len, rfft
 from scipy.signal import find_peaks
 
+from fusion.align.loops import moved_between
 from fusion.align.track import BodyTrack
 from fusion.messages import Floats
 from fusion.skeleton import TrackingState
+
+Singles = NDArray[np.float32]
 
 GRID_HZ = 60.0
 SPEED_SPAN_S = 0.05
@@ -63,31 +67,37 @@ def offset_candidates(
     )
 
 
-def _speeds(track: BodyTrack) -> tuple[Floats, Floats]:
-    """Speeds (M, J) on a steady grid with each joint's mean taken off, and where they are known."""
+def _speeds(track: BodyTrack) -> tuple[Singles, Singles]:
+    """Speeds (J, M) on a steady grid with each joint's mean taken off, and where they are known (1 or 0).
+
+    Single precision: it is only asked where a sum over all joints is largest, and takes half the time.
+    """
     grid = np.arange(track.t_s[0], track.t_s[-1], 1.0 / GRID_HZ)
     ahead, seen_ahead = track.at(grid + SPEED_SPAN_S)
     behind, seen_behind = track.at(grid - SPEED_SPAN_S)
-    known = np.minimum(seen_ahead, seen_behind) == TrackingState.TRACKED
-    speeds = np.minimum(np.linalg.norm(ahead - behind, axis=2) / (2 * SPEED_SPAN_S), FASTEST_M_S)
-    mean = np.where(known, speeds, 0.0).sum(axis=0) / np.maximum(known.sum(axis=0), 1)
-    return np.where(known, speeds - mean, 0.0), known.astype(np.float64)
+    moved_m, seen = moved_between(behind, seen_behind, ahead, seen_ahead)
+    known = (seen == TrackingState.TRACKED).astype(np.float32)
+    speeds = known * np.minimum(moved_m / (2 * SPEED_SPAN_S), FASTEST_M_S)
+    mean = speeds.sum(axis=1) / np.maximum(known.sum(axis=1), 1)
+    return known * (speeds - mean[:, None]), known
 
 
-def _correlation(a: Floats, a_known: Floats, b: Floats, b_known: Floats) -> tuple[Floats, Floats]:
+def _correlation(a: Singles, a_known: Singles, b: Singles, b_known: Singles) -> tuple[Floats, Floats]:
     """Normalised correlation over every lag of b behind a (in grid steps, ascending), all joints summed."""
-    size = next_fast_len(len(a) + len(b))
+    lengths = a.shape[1], b.shape[1]
+    size = next_fast_len(sum(lengths), real=True)
+    ours, our_energy, ours_known = (rfft(x, size) for x in (a, a**2, a_known))
+    theirs, their_energy, theirs_known = (rfft(x, size) for x in (b, b**2, b_known))
 
-    def lagged(x: Floats, y: Floats) -> Floats:
-        spectrum = np.conj(rfft(x, size, axis=0)) * rfft(y, size, axis=0)
-        summed: Floats = irfft(spectrum.sum(axis=1), size)
-        return np.concatenate([summed[size - len(a) + 1 :], summed[: len(b)]])
+    def lagged(x: NDArray[np.complex64], y: NDArray[np.complex64]) -> Floats:
+        summed = irfft(np.einsum("jf,jf->f", np.conj(x), y), size).astype(np.float64)
+        return np.concatenate([summed[size - lengths[0] + 1 :], summed[: lengths[1]]])
 
-    common = lagged(a_known, b_known)
-    energy = np.sqrt(np.maximum(lagged(a**2, b_known) * lagged(a_known, b**2), 1e-12))
+    common = lagged(ours_known, theirs_known)
+    energy = np.sqrt(np.maximum(lagged(our_energy, theirs_known) * lagged(ours_known, their_energy), 1e-12))
     share = np.clip(common / max(float(common.max(initial=0.0)), 1.0), 0, 1)
-    correlation = np.where(share > LEAST_COMMON_SHARE, lagged(a, b) / energy * np.sqrt(share), -1.0)
-    return correlation, np.arange(-len(a) + 1.0, len(b))
+    correlation = np.where(share > LEAST_COMMON_SHARE, lagged(ours, theirs) / energy * np.sqrt(share), -1.0)
+    return correlation, np.arange(-lengths[0] + 1.0, lengths[1])
 
 
 def _vertex(values: Floats, k: int) -> float:

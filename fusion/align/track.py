@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fusion.align.loops import interpolated, paired
 from fusion.messages import Floats, SkeletonSample, States
 
 LONGEST_BRIDGE_S = 0.11
@@ -43,7 +44,8 @@ class BodyTrack:
 
     def thinned(self, most: int) -> BodyTrack:
         """At most so many frames, evenly."""
-        return self.part(slice(None, None, max(1, -(-len(self.t_s) // most))))
+        few = self.part(slice(None, None, max(1, -(-len(self.t_s) // most))))
+        return BodyTrack(*map(np.ascontiguousarray, (few.t_s, few.positions, few.state)))
 
     def since(self, t_s: float) -> BodyTrack:
         """The frames after an instant."""
@@ -54,15 +56,7 @@ class BodyTrack:
 
         State 0 (and NaN) where there is no frame on both sides near enough, or the joint is lost in either.
         """
-        after = np.clip(np.searchsorted(self.t_s, t_s), 1, len(self.t_s) - 1)
-        before = after - 1
-        span = self.t_s[after] - self.t_s[before]
-        share = (t_s - self.t_s[before]) / np.where(span > 0, span, 1.0)
-        bridged = (share >= 0) & (share <= 1) & (span > 0) & (span < LONGEST_BRIDGE_S)
-        state = np.where(bridged[:, None], np.minimum(self.state[before], self.state[after]), 0).astype(np.uint8)
-        share = share[:, None, None]
-        positions = (1 - share) * self.positions[before] + share * self.positions[after]
-        return np.where((state > 0)[..., None], positions, np.nan), state
+        return interpolated(self.t_s, self.positions, self.state, t_s, LONGEST_BRIDGE_S)
 
     def path_m(self) -> float:
         """How far the joints went, on average, in steps of half a second; jitter is taken off."""
@@ -119,11 +113,4 @@ def pair(reference: BodyTrack, sensor: BodyTrack, offset_s: float, most: int | N
     positions, state = sensor.at(few.t_s + offset_s)
     velocity = reference.velocities_at(few.t_s)
     weight = STATE_WEIGHT[few.state] * STATE_WEIGHT[state] * _frames_stood_for(few.t_s)
-    weight = np.where(np.isfinite(few.positions).all(axis=2) & np.isfinite(positions).all(axis=2), weight, 0.0)
-    seen = (weight > 0)[..., None]
-    return Pairs(
-        np.where(seen, few.positions, 0.0),
-        np.where(seen, positions, 0.0),
-        np.where(seen, np.nan_to_num(velocity), 0.0),
-        weight,
-    )
+    return Pairs(*paired(few.positions, positions, velocity, weight))

@@ -11,11 +11,13 @@ import numpy as np
 
 from fusion.align.alignment import SensorAlignment, reference_alignment
 from fusion.align.plausible import Fault, feet_fault, handedness_fault, unit_fault
-from fusion.align.space_time import FEWEST_FRAMES, fit_space_time
+from fusion.align.space_time import COARSE_FRAMES, FEWEST_FRAMES, fit_space_time
 from fusion.align.track import BodyTrack, pair
 from fusion.messages import SkeletonSample
 
 JUDGED_FRAMES = 90
+FAULTS_TOLD_BY = 300
+"""Frames, evenly, that show whether a sender can be right."""
 
 
 class Stream(Protocol):
@@ -73,15 +75,22 @@ def _bodies(stream: Stream) -> list[BodyTrack]:
 
 
 def _own_fault(tracks: list[BodyTrack]) -> Fault | None:
-    found = (unit_fault(track.positions, track.state) or feet_fault(track) for track in tracks)
+    few = (track.thinned(FAULTS_TOLD_BY) for track in tracks)
+    found = (unit_fault(track.positions, track.state) or feet_fault(track) for track in few)
     return next((fault for fault in found if fault is not None), None)
 
 
 def _best(references: list[BodyTrack], tracks: list[BodyTrack]) -> tuple[SensorAlignment | None, Fault | None]:
     """The alignment of the pair of bodies that agrees best, and what is wrong with that pair's handedness."""
-    tried = [(fit_space_time(a, b), a, b) for a, b in product(references, tracks)]
-    able = [(found, a, b) for found, a, b in tried if found is not None]
-    if not able:
+    candidates = list(product(references, tracks))
+    chosen = candidates[0] if len(candidates) == 1 else min(candidates, key=_unlikeness, default=None)
+    found = fit_space_time(*chosen) if chosen else None
+    if chosen is None or found is None:
         return None, None
-    found, a, b = min(able, key=lambda one: one[0].residual_m / float(np.sqrt(one[0].frames)))
-    return found, handedness_fault(pair(a, b, found.clock_offset_s, JUDGED_FRAMES))
+    return found, handedness_fault(pair(*chosen, found.clock_offset_s, JUDGED_FRAMES))
+
+
+def _unlikeness(bodies: tuple[BodyTrack, BodyTrack]) -> float:
+    """How badly two bodies agree at a first look; fewer common frames make a small residual less telling."""
+    found = fit_space_time(*bodies, most=COARSE_FRAMES)
+    return np.inf if found is None else found.residual_m / float(np.sqrt(found.frames))

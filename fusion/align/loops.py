@@ -1,0 +1,179 @@
+"""The loops of alignment over frames and joints, compiled; what they are for is said where they are used.
+
+Every array is contiguous, and positions of joints that are not seen are NaN or have the weight 0.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from fusion.messages import Floats, States
+
+
+@njit(cache=True)
+def interpolated(
+    frames_s: Floats, positions: Floats, state: States, at_s: Floats, longest_s: float
+) -> tuple[Floats, States]:
+    """Positions (M, J, 3) and states (M, J) at `at_s` (M,), linear between frames at most `longest_s` apart.
+
+    NaN and state 0 where no two frames enclose the instant so closely, or the joint is lost in either.
+    """
+    joints = state.shape[1]
+    found = np.full((len(at_s), joints, 3), np.nan)
+    seen = np.zeros((len(at_s), joints), np.uint8)
+    for m in range(len(at_s)):
+        after = min(max(np.searchsorted(frames_s, at_s[m]), 1), len(frames_s) - 1)
+        before = after - 1
+        span_s = frames_s[after] - frames_s[before]
+        if not (0 < span_s < longest_s and frames_s[before] <= at_s[m] <= frames_s[after]):
+            continue
+        share = (at_s[m] - frames_s[before]) / span_s
+        for j in range(joints):
+            seen[m, j] = min(state[before, j], state[after, j])
+            if seen[m, j] > 0:
+                for k in range(3):
+                    found[m, j, k] = (1 - share) * positions[before, j, k] + share * positions[after, j, k]
+    return found, seen
+
+
+@njit(cache=True)
+def moved_between(
+    before: Floats, state_before: States, after: Floats, state_after: States
+) -> tuple[NDArray[np.float32], States]:
+    """How far each joint moved (J, M) from positions (M, J, 3) to others, 0 where unknown, and the lesser states."""
+    instants, joints = state_before.shape
+    moved = np.zeros((joints, instants), np.float32)
+    state = np.zeros((joints, instants), np.uint8)
+    for m in range(instants):
+        for j in range(joints):
+            state[j, m] = min(state_before[m, j], state_after[m, j])
+            if state[j, m] > 0:
+                moved[j, m] = _apart(before[m, j], after[m, j])
+    return moved, state
+
+
+@njit(cache=True)
+def paired(
+    reference: Floats, sensor: Floats, velocity: Floats, weight: Floats
+) -> tuple[Floats, Floats, Floats, Floats]:
+    """Copies of positions (N, J, 3), velocities and weights (N, J) with zeros where a position is not known.
+
+    An unknown velocity alone is zero and takes no weight away.
+    """
+    ours, theirs, speed, kept = np.zeros_like(reference), np.zeros_like(sensor), np.zeros_like(velocity), weight.copy()
+    for n in range(weight.shape[0]):
+        for j in range(weight.shape[1]):
+            if not np.isfinite(reference[n, j].sum() + sensor[n, j].sum()):
+                kept[n, j] = 0.0
+            if kept[n, j] > 0:
+                ours[n, j], theirs[n, j] = reference[n, j], sensor[n, j]
+                if np.isfinite(velocity[n, j].sum()):
+                    speed[n, j] = velocity[n, j]
+    return ours, theirs, speed, kept
+
+
+@njit(cache=True)
+def distances(reference: Floats, sensor: Floats, rotation: Floats, translation: Floats) -> Floats:
+    """How far (N,) the sensor's points (N, 3) are from the reference's once turned and moved."""
+    found = np.empty(len(reference))
+    for n in range(len(reference)):
+        square = 0.0
+        for k in range(3):
+            there = translation[k]
+            for i in range(3):
+                there += rotation[k, i] * sensor[n, i]
+            square += (reference[n, k] - there) ** 2
+        found[n] = np.sqrt(square)
+    return found
+
+
+@njit(cache=True)
+def robust_weights(given: Floats, distance: Floats, tukey_m: float, huber_m: float) -> Floats:
+    """Weights (N,) times Tukey's biweight, which ends at `tukey_m`, times Huber's, which falls from `huber_m` on."""
+    kept = np.zeros(len(given))
+    for n in range(len(given)):
+        if distance[n] < tukey_m:
+            biweight = (1 - (distance[n] / tukey_m) ** 2) ** 2
+            kept[n] = given[n] * biweight * min(1.0, huber_m / max(distance[n], 1e-9))
+    return kept
+
+
+@njit(cache=True)
+def weighted_sums(
+    reference: Floats, sensor: Floats, weight: Floats
+) -> tuple[float, Floats, Floats, Floats, Floats, float]:
+    """Σ w, the means r̄ and s̄, Σ w (r - r̄)(s - s̄)', Σ w (s - s̄)(s - s̄)' and Σ w |r - r̄|² over points (N, 3)."""
+    total = weight.sum()
+    middle, middle_sensor = _mean(reference, weight), _mean(sensor, weight)
+    cross, scatter, square = np.zeros((3, 3)), np.zeros((3, 3)), 0.0
+    for n in range(len(weight)):
+        for k in range(3):
+            r, s = reference[n, k] - middle[k], sensor[n, k] - middle_sensor[k]
+            square += weight[n] * r * r
+            for i in range(3):
+                across = weight[n] * (sensor[n, i] - middle_sensor[i])
+                cross[k, i] += r * across
+                scatter[k, i] += s * across
+    return total, middle, middle_sensor, cross, scatter, square
+
+
+@njit(cache=True)
+def _mean(points: Floats, weight: Floats) -> Floats:
+    mean, total = np.zeros(3), weight.sum()
+    for n in range(len(weight)):
+        for k in range(3):
+            mean[k] += weight[n] * points[n, k]
+    return mean / total if total > 0 else mean
+
+
+@njit(cache=True)
+def clearly_crossed(
+    reference: Floats, sensor: Floats, weight: Floats, other_side: NDArray[np.int64], share: float
+) -> NDArray[np.bool_]:
+    """Frames (N,) whose aligned joints (N, J, 3) are less than `share` as far apart once left and right are exchanged.
+
+    Only joints that have a side count, and only where both sides are seen.
+    """
+    found = np.zeros(len(reference), np.bool_)
+    for n in range(len(reference)):
+        plain, crossed = 0.0, 0.0
+        for j in range(len(other_side)):
+            other = other_side[j]
+            both = min(weight[n, j], weight[n, other])
+            if other != j and both > 0:
+                plain += both * _apart(reference[n, j], sensor[n, j])
+                crossed += both * _apart(reference[n, j], sensor[n, other])
+        found[n] = crossed < share * plain
+    return found
+
+
+@njit(cache=True)
+def offset_sums(errors: Floats, velocity: Floats, weight: Floats, tukey_m: float) -> tuple[float, float, float, float]:
+    """Σ w v·v, Σ w e·v, Σ w e·e and Σ w over joints (N, J, 3), `weight` (N, J) times a biweight of the error."""
+    information, change, square, total = 0.0, 0.0, 0.0, 0.0
+    for n in range(weight.shape[0]):
+        for j in range(weight.shape[1]):
+            error, speed = errors[n, j], velocity[n, j]
+            apart = _dot(error, error)
+            if weight[n, j] > 0 and apart < tukey_m**2:
+                kept = weight[n, j] * (1 - apart / tukey_m**2) ** 2
+                information += kept * _dot(speed, speed)
+                change += kept * _dot(error, speed)
+                square += kept * apart
+                total += kept
+    return information, change, square, total
+
+
+@njit(cache=True)
+def _dot(a: Floats, b: Floats) -> float:
+    product: float = a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+    return product
+
+
+@njit(cache=True)
+def _apart(a: Floats, b: Floats) -> float:
+    return math.sqrt((a[0] - b[0]) ** 2 + (a[1] - b[1]) ** 2 + (a[2] - b[2]) ** 2)
