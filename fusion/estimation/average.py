@@ -8,8 +8,8 @@ from typing import ClassVar, Final
 import numpy as np
 
 from fusion.estimation.estimator import Estimator
-from fusion.estimation.freshness import CONTINUE_S, TOO_OLD_S, state_of
-from fusion.estimation.measurement import is_given
+from fusion.estimation.freshness import CONTINUE_S, TOO_OLD_S, states_of
+from fusion.estimation.measurement import read, sight
 from fusion.messages import AlignedSample, Floats, FusedFrame, Refusal
 from fusion.skeleton import JOINT_COUNT
 
@@ -52,7 +52,7 @@ class Average(Estimator):
         seen_s = self._state.seen_s
         bound_m = SENSOR_BOUND_M + SPEED_MAX_M_S * np.maximum(t_s - seen_s, 0.0)
         shape_m2 = np.where(np.isfinite(bound_m), bound_m, np.nan)[:, None, None] ** 2 * np.eye(3)
-        return FusedFrame(t_s, self._state.position, shape_m2, bound_m, state_of(seen_s, t_s))
+        return FusedFrame(t_s, self._state.position, shape_m2, bound_m, states_of(seen_s, float(t_s)))
 
     def _weights(self, samples: Samples) -> Floats:
         """(K, J) how much each sample counts for each joint that it gives."""
@@ -78,7 +78,7 @@ def _fresh(samples: Samples, sample: AlignedSample, now_s: float) -> Samples:
 def _joined(state: AverageState, samples: Samples, weights: Floats) -> AverageState:
     """The mean of K samples under `weights` (K, J) where they give the joint; held where none does."""
     positions = np.stack([s.positions_in_room for s in samples])  # (K, J, 3)
-    given = np.stack([is_given(s.positions_in_room, s.state) for s in samples])  # (K, J)
+    given = np.stack([read(sight(s)).given for s in samples])  # (K, J)
     shares = np.where(given, weights, 0.0)
     total = (shares[..., None] * np.where(given[..., None], positions, 0.0)).sum(axis=0)
     count: Floats = given.sum(axis=0)

@@ -7,32 +7,31 @@ can show because both sensors share it, and what an acceleration can have added 
 
 from __future__ import annotations
 
+from math import exp
 from typing import Final
 
-import numpy as np
-
-from fusion.estimation.measurement import Flags
+from fusion.compiled import Record, kernel
 from fusion.estimation.motion_set import ACCELERATION_MAX
-from fusion.messages import Floats
-from fusion.skeleton import JOINT_COUNT
 
 HIDDEN_M: Final = 0.09
 """Two standard deviations of one sensor's error [Du2016 Table 1], which the other sensor may share."""
 START_M: Final = 0.2
+"""The worst innovation before there was any: a sensor's whole error interval."""
 FORGET_S: Final = 1.0
 
-
-def start() -> Floats:
-    """(J,) m, the worst innovation before there was any: a sensor's whole error interval."""
-    return np.full(JOINT_COUNT, START_M)
+FIELDS: Final = [("worst_innovation_m", "f8")]
+"""What is kept in a joint's record."""
 
 
-def learn(worst_m: Floats, innovation_m: Floats, used: Flags, dt: float) -> Floats:
-    """(J,) m, the worst innovation, fading within seconds as smaller ones follow."""
-    faded = worst_m * np.exp(-max(dt, 0.0) / FORGET_S)
-    return np.where(used, np.maximum(faded, innovation_m), worst_m)
+@kernel
+def learn(joint: Record, innovation_m: float, dt: float) -> None:
+    """The worst innovation, fading within seconds as smaller ones follow."""
+    faded_m = joint.worst_innovation_m * exp(-max(dt, 0.0) / FORGET_S)
+    joint.worst_innovation_m = max(faded_m, innovation_m)
 
 
-def radius_m(worst_m: Floats, believed_s: Floats, t_s: float) -> Floats:
-    """(J,) m, the ball's radius at `t_s`; infinite for a joint never believed."""
-    return HIDDEN_M + worst_m + ACCELERATION_MAX / 2 * np.maximum(t_s - believed_s, 0.0) ** 2
+@kernel
+def radius_m(joint: Record, believed_s: float, t_s: float) -> float:
+    """The ball's radius at `t_s`; infinite for a joint never believed."""
+    worst_m: float = joint.worst_innovation_m
+    return HIDDEN_M + worst_m + ACCELERATION_MAX / 2 * max(t_s - believed_s, 0.0) ** 2

@@ -7,54 +7,54 @@ buy is that the point stays where it was when one of the sensors falls silent, a
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from typing import Final
 
-import numpy as np
-
-from fusion.estimation.measurement import Flags
-from fusion.messages import Floats
-from fusion.skeleton import JOINT_COUNT
+from fusion.compiled import Record, Records, kernel
+from fusion.estimation.vectors import Vector, length
 
 FOLLOW_S: Final = 2.0
 """Offsets change as the person turns, and must outlast one movement of the arm; 1 to 4 s serve."""
 LARGEST_M: Final = 0.15
 """More than this is a wandering joint and no bias."""
 
-
-@dataclass(frozen=True, slots=True)
-class Bias:
-    """Where one sensor sees each joint, less where all do."""
-
-    sensor: str
-    offset_m: Floats  # (J, 3) in room
-    since_s: float
+FIELDS: Final = [
+    ("offset_m", "f8", (3,)),  # where this sensor sees the joint, less where all do; in room
+    ("heard_s", "f8"),  # when the sensor last spoke
+]
+"""What is remembered of each joint of each sensor."""
 
 
-Biases = tuple[Bias, ...]
+@kernel
+def share_of(word: Record, t_s: float) -> float:
+    """How much a sensor's word at `t_s` counts in its bias, by how long it had been silent."""
+    silent_s: float = t_s - word.heard_s
+    word.heard_s = t_s
+    return min(max(silent_s / FOLLOW_S, 0.0), 0.1)
 
 
-def offset_of(biases: Biases, sensor: str) -> Floats:
-    """(J, 3) m, what is to be taken off a sensor's positions."""
-    return next((bias.offset_m for bias in biases if bias.sensor == sensor), np.zeros((JOINT_COUNT, 3)))
+@kernel
+def learn(words: Records, own: int, difference_m: Vector, share: float) -> None:
+    """Follow `difference_m`, measured less fused, of a joint that another sensor sees as well.
+
+    `words` (K,) are what is remembered of the joint, sensor by sensor.
+    """
+    offset_m = words[own].offset_m
+    for k in range(3):
+        offset_m[k] += share * (difference_m[k] - offset_m[k])
+    _centre(words)
 
 
-def learn(biases: Biases, sensor: str, t_s: float, difference_m: Floats, joints: Flags) -> Biases:
-    """Follow `difference_m` (J, 3), measured less fused, of the `joints` (J,) that another sensor sees as well."""
-    own = next((bias for bias in biases if bias.sensor == sensor), None)
-    if own is None:
-        return (*biases, Bias(sensor, np.zeros((JOINT_COUNT, 3)), t_s))
-    share = np.clip((t_s - own.since_s) / FOLLOW_S, 0.0, 0.1)
-    step = np.where(joints[:, None], share * (difference_m - own.offset_m), 0.0)
-    updated = replace(own, offset_m=own.offset_m + step, since_s=t_s)
-    return _centred(tuple(updated if bias is own else bias for bias in biases))
-
-
-def _centred(biases: Biases) -> Biases:
+@kernel
+def _centre(words: Records) -> None:
     """The same differences, none too large, with no offset that all sensors share."""
-    offsets = np.array([bias.offset_m for bias in biases])  # (K, J, 3)
-    offsets -= offsets.sum(axis=0) / len(biases)
-    squares = np.einsum("kji,kji->kj", offsets, offsets)
-    if squares.max() > LARGEST_M**2:
-        offsets *= (LARGEST_M / np.sqrt(np.maximum(squares, LARGEST_M**2)))[..., None]
-    return tuple(replace(bias, offset_m=offset) for bias, offset in zip(biases, offsets, strict=True))
+    for axis in range(3):
+        total = 0.0
+        for k in range(len(words)):
+            total += words[k].offset_m[axis]
+        for k in range(len(words)):
+            words[k].offset_m[axis] -= total / len(words)
+    for k in range(len(words)):
+        offset_m = words[k].offset_m
+        excess = length(offset_m) / LARGEST_M
+        for axis in range(3):
+            offset_m[axis] /= max(excess, 1.0)

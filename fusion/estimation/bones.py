@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fusion.compiled import Record, Records, kernel, record
 from fusion.estimation.measurement import Flags, Measurement
-from fusion.messages import Floats
-from fusion.skeleton import BONE_INDICES, INDEX, JOINT_COUNT
+from fusion.estimation.vectors import distance, row
+from fusion.skeleton import BONE_INDICES, INDEX
 
-PARENT, CHILD = BONE_INDICES.T
 LEARN_FRAMES: Final = 30
 """A length is believed once it was seen this often: a second of one sensor."""
 FORGET_FRAMES: Final = 300
@@ -24,63 +22,67 @@ SPREAD_MAX_M: Final = 0.1
 DEVIATIONS: Final = 5.0
 LEAST_MISFIT_M: Final = 0.08
 """A bone is wrong when it is off by this much and by five of its usual deviations."""
-LIMBS: Final = frozenset(
+LIMBS: Final = [
     INDEX[name + side] for side in ("Left", "Right") for name in ("Elbow", "Wrist", "Hand", "Knee", "Ankle", "Foot")
-)
+]
 """What hangs on one of these wanders with it."""
 
-
-def _hangs_on() -> NDArray[np.bool_]:
-    """(J, B) whether a joint is the far end of a bone, or hangs on that end along a limb."""
-    hangs: NDArray[np.bool_] = np.arange(JOINT_COUNT)[:, None] == CHILD[None, :]
-    for parent, child in BONE_INDICES:  # parents come before their children
-        if parent in LIMBS:
-            hangs[child] |= hangs[parent]
-    return hangs
-
-
-HANGS_ON: Final = _hangs_on()
-
-
-@dataclass(frozen=True, slots=True)
-class Bones:
-    """Learnt length and usual deviation of each bone, and how often it was seen."""
-
-    length_m: Floats  # (B,)
-    deviation_m: Floats  # (B,) mean absolute
-    frames: Floats  # (B,)
+BONE: Final = record(
+    [
+        ("parent", "i8"),
+        ("child", "i8"),
+        ("hangs", "?"),  # the child wanders with its parent
+        ("length_m", "f8"),
+        ("deviation_m", "f8"),  # mean absolute
+        ("frames", "f8"),  # how often it was seen
+    ]
+)
 
 
-def unknown() -> Bones:
-    """Before anything was seen."""
-    zero = np.zeros(len(PARENT))
-    return Bones(zero, zero, zero)
+def unknown(joints: int) -> Records:
+    """(B,) the bones between the first `joints` joints before anything was seen; parents before their children."""
+    between = BONE_INDICES[(joints > BONE_INDICES).all(axis=1)]
+    bones = np.zeros(len(between), BONE)
+    bones["parent"], bones["child"] = between.T
+    bones["hangs"] = np.isin(bones["parent"], LIMBS)
+    return bones
 
 
-def learn(bones: Bones, measured: Measurement) -> Bones:
-    """Follow the lengths of the bones whose two ends are tracked: a running mean with bounded steps."""
-    tracked = measured.tracked[PARENT] & measured.tracked[CHILD]
-    misfit = _lengths(measured) - bones.length_m
-    first = tracked & (bones.frames == 0)
-    bounded = np.clip(misfit, -STEP_MAX_M, STEP_MAX_M)
-    spread = np.minimum(np.abs(misfit), SPREAD_MAX_M)
-    share = tracked / np.minimum(bones.frames + 1, FORGET_FRAMES)
-    return Bones(
-        bones.length_m + np.where(first, misfit, share * bounded),
-        bones.deviation_m + np.where(first, 0.0, share * (spread - bones.deviation_m)),
-        bones.frames + tracked,
-    )
+@kernel
+def judge(bones: Records, measured: Measurement) -> Flags:
+    """(J,) joints at the far end of a bone whose length is wrong, and all that hangs on them; learns the lengths.
+
+    `bones` (B,) are those of one sensor.
+    """
+    wandering = np.zeros(len(measured.given), np.bool_)
+    for b in range(len(bones)):
+        bone = bones[b]
+        near, far = bone.parent, bone.child
+        if not (measured.given[near] and measured.given[far]):
+            wandering[far] = bone.hangs and wandering[near]
+            continue
+        length_m = distance(row(measured.positions, near), row(measured.positions, far))
+        wandering[far] = is_wrong(bone, length_m) or (bone.hangs and wandering[near])
+        if measured.tracked[near] and measured.tracked[far]:
+            learn(bone, length_m)
+    return wandering
 
 
-def wandering(bones: Bones, measured: Measurement) -> Flags:
-    """(J,) joints at the far end of a bone whose length is wrong, and all that hangs on them."""
-    known = measured.given[PARENT] & measured.given[CHILD] & (bones.frames >= LEARN_FRAMES)
-    limit = np.maximum(LEAST_MISFIT_M, DEVIATIONS * bones.deviation_m)
-    wrong = known & (np.abs(_lengths(measured) - bones.length_m) > limit)
-    joints: Flags = (HANGS_ON & wrong).any(axis=1)
-    return joints
+@kernel
+def is_wrong(bone: Record, length_m: float) -> bool:
+    """Whether a length is not the bone's, once that is known."""
+    limit_m = max(LEAST_MISFIT_M, DEVIATIONS * bone.deviation_m)
+    return bool(bone.frames >= LEARN_FRAMES and abs(length_m - bone.length_m) > limit_m)
 
 
-def _lengths(measured: Measurement) -> Floats:
-    lengths: Floats = np.linalg.norm(measured.positions[CHILD] - measured.positions[PARENT], axis=1)
-    return lengths
+@kernel
+def learn(bone: Record, length_m: float) -> None:
+    """Follow the length: a running mean with bounded steps."""
+    misfit = length_m - bone.length_m
+    share = 1 / min(bone.frames + 1, FORGET_FRAMES)
+    if bone.frames == 0:
+        bone.length_m = length_m
+    else:
+        bone.length_m += share * min(max(misfit, -STEP_MAX_M), STEP_MAX_M)
+        bone.deviation_m += share * (min(abs(misfit), SPREAD_MAX_M) - bone.deviation_m)
+    bone.frames += 1

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+from math import cos, hypot, pi, sin
 from typing import Final
 
-import numpy as np
-
-from fusion.messages import AlignedSample, Floats
+from fusion.compiled import kernel
+from fusion.estimation.vectors import Vector
+from fusion.messages import Floats
 
 NEAREST_M: Final = 0.5
 """No sensor sees a body nearer than this; keeps the angles of a bad point finite."""
 
 
-def half_width_in_room(sample: AlignedSample, positions: Floats, half_width: Floats) -> Floats:
-    """(J, 3) m, half-widths along the room's axes of strips around each measured point that hold its error box.
+@kernel
+def half_width_in_room(from_lens: Vector, rotation_sensor_to_room: Floats, half_width: Vector) -> Vector:
+    """Half-widths in metres along the room's axes of strips around a measured point that hold its error box.
 
     Azimuth is atan2(x, z) and elevation asin(y/r) in the sensor's frame. The box is r ± ρ, azimuth ± a, elevation ± b
     with a and b the given metres seen at the range r. Its curvature widens it, along its own three axes, to
@@ -25,35 +27,52 @@ def half_width_in_room(sample: AlignedSample, positions: Floats, half_width: Flo
     which depends on the measurement and never on what was predicted.
 
     Args:
-        sample: for where the sensor stands and looks.
-        positions: (J, 3) m in room, finite.
-        half_width: (J, 3) m, half the box along range, across and up.
+        from_lens: from the lens to the point, in room, m, finite.
+        rotation_sensor_to_room: (3, 3) R, whose columns are the sensor's axes in the room.
+        half_width: half the box along range, across and up, m.
     """
-    line = (positions - sample.lens_in_room) @ sample.rotation_sensor_to_room  # in sensor
-    line[:, 2] = np.where(np.hypot(line[:, 0], line[:, 2]) < NEAREST_M, NEAREST_M, line[:, 2])
-    flat = np.hypot(line[:, 0], line[:, 2])
-    r = np.hypot(flat, line[:, 1])
-    axes_in_room = _axes(line, flat, r) @ sample.rotation_sensor_to_room.T
-    in_room: Floats = np.einsum("jk,jka->ja", _widened(r, flat, line[:, 1] / r, half_width), np.abs(axes_in_room))
-    return in_room
+    x, y, z = _in_sensor(from_lens, rotation_sensor_to_room)
+    if hypot(x, z) < NEAREST_M:
+        z = NEAREST_M
+    flat = hypot(x, z)
+    r = hypot(flat, y)
+    sin_az, cos_az, sin_el, cos_el = x / flat, z / flat, y / r, flat / r
+    range_m, across_m, up_m = _curved(r, flat, sin_el, half_width)
+    along = _in_room((cos_el * sin_az, sin_el, cos_el * cos_az), rotation_sensor_to_room)
+    across = _in_room((cos_az, 0.0, -sin_az), rotation_sensor_to_room)
+    up = _in_room((-sin_el * sin_az, cos_el, -sin_el * cos_az), rotation_sensor_to_room)
+    return (
+        range_m * abs(along[0]) + across_m * abs(across[0]) + up_m * abs(up[0]),
+        range_m * abs(along[1]) + across_m * abs(across[1]) + up_m * abs(up[1]),
+        range_m * abs(along[2]) + across_m * abs(across[2]) + up_m * abs(up[2]),
+    )
 
 
-def _axes(line: Floats, flat: Floats, r: Floats) -> Floats:
-    """(J, 3, 3) unit vectors of growing range, azimuth and elevation, in the sensor's frame."""
-    sin_az, cos_az = line[:, 0] / flat, line[:, 2] / flat
-    sin_el, cos_el = line[:, 1] / r, flat / r
-    zero = np.zeros_like(flat)
-    along = [cos_el * sin_az, sin_el, cos_el * cos_az]
-    across = [cos_az, zero, -sin_az]
-    up = [-sin_el * sin_az, cos_el, -sin_el * cos_az]
-    return np.array([along, across, up]).transpose(2, 0, 1)
+@kernel
+def _curved(r: float, flat: float, sin_el: float, half_width: Vector) -> Vector:
+    rho, a, b = half_width[0], min(half_width[1] / flat, pi / 2), min(half_width[2] / r, pi / 2)
+    return (
+        r - max(r - rho, 0.0) * max(cos(a) + cos(b) - 1, 0.0),
+        (r + rho) * sin(a),
+        (r + rho) * (sin(b) + abs(sin_el) * (1 - cos(a))),
+    )
 
 
-def _widened(r: Floats, flat: Floats, sin_el: Floats, half_width: Floats) -> Floats:
-    rho = half_width[:, 0]
-    a = np.minimum(half_width[:, 1] / flat, np.pi / 2)
-    b = np.minimum(half_width[:, 2] / r, np.pi / 2)
-    along = r - np.maximum(r - rho, 0.0) * np.maximum(np.cos(a) + np.cos(b) - 1, 0.0)
-    across = (r + rho) * np.sin(a)
-    up = (r + rho) * (np.sin(b) + np.abs(sin_el) * (1 - np.cos(a)))
-    return np.array([along, across, up]).T
+@kernel
+def _in_sensor(a: Vector, R: Floats) -> Vector:
+    """R' a."""
+    return (
+        R[0, 0] * a[0] + R[1, 0] * a[1] + R[2, 0] * a[2],
+        R[0, 1] * a[0] + R[1, 1] * a[1] + R[2, 1] * a[2],
+        R[0, 2] * a[0] + R[1, 2] * a[1] + R[2, 2] * a[2],
+    )
+
+
+@kernel
+def _in_room(a: Vector, R: Floats) -> Vector:
+    """R a."""
+    return (
+        R[0, 0] * a[0] + R[0, 1] * a[1] + R[0, 2] * a[2],
+        R[1, 0] * a[0] + R[1, 1] * a[1] + R[1, 2] * a[2],
+        R[2, 0] * a[0] + R[2, 1] * a[1] + R[2, 2] * a[2],
+    )

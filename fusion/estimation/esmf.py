@@ -11,18 +11,21 @@ from typing import ClassVar, Final
 
 import numpy as np
 
+from fusion.compiled import kernel
 from fusion.estimation import refusals
 from fusion.estimation.error_box import half_width_in_room
 from fusion.estimation.estimator import Estimator
 from fusion.estimation.evidence import BELIEVED_HALF_WIDTH_M, DOUBTED_HALF_WIDTH_M
-from fusion.estimation.freshness import LOST_AFTER_S, TOO_OLD_S, seconds_in_motion, state_of
-from fusion.estimation.measurement import Flags, Measurement, read
+from fusion.estimation.freshness import LOST_AFTER_S, TOO_OLD_S, seconds_in_motion, states_of
+from fusion.estimation.measurement import Flags, Measurement, Sight, read, sight
 from fusion.estimation.motion_set import ACCELERATION_MAX, SPEED_MAX
+from fusion.estimation.vectors import plus, row
 from fusion.messages import AlignedSample, Floats, FusedFrame, Refusal
 from fusion.skeleton import JOINT_COUNT
 
 RESTART_AFTER_S: Final = 0.5
 """Refusals in a row for this long mean that the set is wrong, not the sensors."""
+REASONS: Final = ("", "does not meet the set")
 P, V = slice(0, 3), slice(3, 6)
 
 
@@ -59,7 +62,7 @@ class Esmf(Estimator):
         """The predicted ellipsoid; its centre is halted three frames after the last measurement (SR-4)."""
         state = predict(self._state, t_s)
         from_s = min(self._state.t_s, t_s) if np.isfinite(self._state.t_s) else t_s
-        held_s = np.maximum(t_s - from_s - seconds_in_motion(self._state.seen_s, from_s, t_s), 0.0)
+        held_s = np.maximum(t_s - from_s - _in_motion(self._state.seen_s, float(from_s), float(t_s)), 0.0)
         beyond = state.centre[:, V] * held_s[:, None]  # what the set moves on alone
         beyond_m = np.linalg.norm(np.nan_to_num(beyond), axis=1)
         seen = np.isfinite(state.seen_s)
@@ -69,7 +72,9 @@ class Esmf(Estimator):
         shape_m2 = np.where((beyond_m > 0)[:, None, None], ball, state.shape[:, P, P])
         shape_m2 = np.where(seen[:, None, None], shape_m2, np.nan)
         recent = refusals.fresh(state.latest, t_s)
-        return FusedFrame(t_s, state.centre[:, P] - beyond, shape_m2, bound_m, state_of(state.seen_s, t_s), recent)
+        return FusedFrame(
+            t_s, state.centre[:, P] - beyond, shape_m2, bound_m, states_of(state.seen_s, float(t_s)), recent
+        )
 
     def snapshot(self) -> object:
         """The filter's state."""
@@ -119,27 +124,44 @@ def cut(state: EsmfState, positions: Floats, measured_m2: Floats, joints: Flags)
 
 def _take(state: EsmfState, sample: AlignedSample) -> tuple[EsmfState, tuple[Refusal, ...]]:
     state = predict(state, sample.t_s)
-    measured = read(sample)
+    seen = sight(sample)
+    measured = read(seen)
     late_s = max(state.t_s - sample.t_s, 0.0)
     speed = np.clip(np.nan_to_num(state.centre[:, V]), -SPEED_MAX, SPEED_MAX)
     positions = measured.positions + speed * late_s
-    measured_m2 = _measured_m2(sample, measured, 2 * SPEED_MAX * late_s)  # the joint may have gone the other way
+    measured_m2 = _measured_m2(seen, measured, float(2 * SPEED_MAX * late_s))  # the joint may have gone the other way
     state, met = cut(state, positions, measured_m2, measured.given)
     since_s = np.where(measured.given, np.minimum(state.refused_since_s, state.t_s), state.refused_since_s)
     since_s = np.where(met, np.inf, since_s)
     lost = ~(state.t_s - state.seen_s < LOST_AFTER_S)
     begun = measured.given & ~met & (lost | (state.t_s - since_s >= RESTART_AFTER_S))
     state = _begun(state, positions, measured_m2, begun)
-    refused = refusals.refuse(sample.sensor, measured.given & ~met & ~begun, "does not meet the set")
+    codes = (measured.given & ~met & ~begun).astype(np.uint8)
+    refused = refusals.refused(sample.sensor, codes, REASONS)
     latest = refusals.remember(state.latest, sample.sensor, sample.t_s, refused)
     return replace(state, refused_since_s=np.where(begun, np.inf, since_s), latest=latest), refused
 
 
-def _measured_m2(sample: AlignedSample, measured: Measurement, wider_m: float) -> Floats:
+@kernel
+def _measured_m2(seen: Sight, measured: Measurement, wider_m: float) -> Floats:
     """(J, 3) m², the diagonal of the least ellipsoid around each measurement's box."""
-    in_sensor = np.where(measured.tracked[:, None], BELIEVED_HALF_WIDTH_M, DOUBTED_HALF_WIDTH_M)
-    half = half_width_in_room(sample, measured.positions, in_sensor) + wider_m
-    return 3 * half**2
+    squares = np.empty_like(measured.positions)
+    for j in range(len(squares)):
+        box_m = BELIEVED_HALF_WIDTH_M if measured.tracked[j] else DOUBTED_HALF_WIDTH_M
+        from_lens = plus(row(measured.positions, j), seen.lens_in_room, -1.0)
+        half = half_width_in_room(from_lens, seen.rotation_sensor_to_room, box_m)
+        for k in range(3):
+            squares[j, k] = 3 * (half[k] + wider_m) ** 2
+    return squares
+
+
+@kernel
+def _in_motion(seen_s: Floats, from_s: float, to_s: float) -> Floats:
+    """(J,) `seconds_in_motion` of every joint."""
+    seconds = np.empty_like(seen_s)
+    for j in range(len(seconds)):
+        seconds[j] = seconds_in_motion(seen_s[j], from_s, to_s)
+    return seconds
 
 
 def _begun(state: EsmfState, positions: Floats, measured_m2: Floats, which: Flags) -> EsmfState:

@@ -1,19 +1,16 @@
-"""What one sample is worth: which joints are used, how surely, and how far each may be off."""
+"""What a sensor's word about a joint is worth: whether it is used, how surely, and how far it may be off."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Final
+from typing import Final, NamedTuple
 
-import numpy as np
-
+from fusion.compiled import Record, Records, kernel
 from fusion.estimation import trust
 from fusion.estimation.error_box import half_width_in_room
-from fusion.estimation.gated_filter import Track, carried_on
-from fusion.estimation.measurement import Flags, Measurement, read
+from fusion.estimation.gated_filter import carried_on
+from fusion.estimation.measurement import Flags, Measurement, Sight
 from fusion.estimation.motion_set import SPEED_MAX
-from fusion.estimation.trust import SensorTrust
-from fusion.messages import AlignedSample, Floats
+from fusion.estimation.vectors import Vector, distance, plus, row, widened
 
 BELIEVED_STD_M: Final = 0.035
 DOUBTED_STD_M: Final = 0.2
@@ -21,60 +18,59 @@ DOUBTED_STD_M: Final = 0.2
 AGREEING_STD_M: Final = 0.07
 AGREES_WITHIN_M: Final = 0.08
 """A doubted measurement this near to what a believed sensor leads to expect is used beside it."""
-BELIEVED_HALF_WIDTH_M: Final = np.array((0.2, 0.2, 0.15))
+BELIEVED_HALF_WIDTH_M: Final[Vector] = (0.2, 0.2, 0.15)
 """Range, across, up: the error interval of a tracked joint [Du2016 Table 1]."""
-DOUBTED_HALF_WIDTH_M: Final = np.array((0.6, 0.6, 0.6))
+DOUBTED_HALF_WIDTH_M: Final[Vector] = (0.6, 0.6, 0.6)
 """An inferred or wandering joint is off by half a metre at worst; and a fifth more."""
 
 
-@dataclass(frozen=True, slots=True)
-class Evidence:
-    """One sample, ready to be used."""
+class Evidence(NamedTuple):
+    """One sensor's word about one joint, ready to be used."""
 
-    positions: Floats  # (J, 3) m in room, as measured
-    unbiased: Floats  # (J, 3) m, less what this sensor always says differently from the others
-    believed: Flags  # (J,)
-    unchecked: Flags  # (J,) believed where nobody was lately: the gate has nothing to judge by
-    shared: Flags  # (J,) believed, and so was another sensor lately
-    used: Flags  # (J,)
-    outvoted: Flags  # (J,) in doubt, disagreeing, and another sensor is sure
-    wandering: Flags  # (J,) a bone's length is wrong
-    variance: Floats  # (J,) m²
-    half_width: Floats  # (J, 3) m along the room's axes
+    position: Vector  # m in room, as measured
+    unbiased: Vector  # m, less what this sensor always says differently from the others
+    believed: bool
+    unchecked: bool  # believed where nobody was lately: the gate has nothing to judge by
+    shared: bool  # believed, and so was another sensor lately
+    outvoted: bool  # in doubt, disagreeing, and another sensor is sure: not used
+    variance: float  # m²
+    half_width: Vector  # m along the room's axes
 
 
+@kernel
 def weigh(
-    sample: AlignedSample, own: SensorTrust, others: tuple[SensorTrust, ...], track: Track, offset_m: Floats
-) -> tuple[Evidence, SensorTrust]:
-    """Weigh one sample against its sensor's past, the other sensors and the predicted track.
+    seen: Sight,
+    measured: Measurement,
+    wandering: Flags,
+    j: int,
+    joint: Record,
+    words: Records,
+    own: int,
+    t_s: float,
+    late_s: float,
+) -> Evidence:
+    """Weigh what a sample gives of joint `j` against its sensor's past, the other sensors and the predicted joint.
 
-    `offset_m` (J, 3) is the sensor's learnt bias: the point is moved by what is left, the set by what was measured.
+    `words` (K,) is what is remembered of the joint, sensor by sensor; `own` is this sensor. The point is moved by what
+    the learnt bias leaves, the set is cut by what was measured.
     """
-    t_s = track.t_s
-    measured = read(sample)
-    verdict, learnt = trust.judge(own, t_s, measured)
-    positions = carried_on(track, measured.positions, sample.t_s)
-    unbiased = positions - offset_m
-    surely = trust.believed_lately(others, t_s)
-    agreeing = verdict.doubted & surely & (np.linalg.norm(unbiased - track.position, axis=1) < AGREES_WITHIN_M)
-    outvoted = verdict.doubted & surely & ~agreeing
-    std_m = np.where(verdict.believed, BELIEVED_STD_M, np.where(agreeing, AGREEING_STD_M, DOUBTED_STD_M))
-    half_width = _half_width(sample, measured, verdict.believed) + SPEED_MAX * max(t_s - sample.t_s, 0.0)
-    evidence = Evidence(
-        positions=positions,
+    word = words[own]
+    believed = trust.judge(word, t_s, measured.tracked[j], wandering[j])
+    position = carried_on(joint, row(measured.positions, j), late_s)
+    unbiased = plus(position, word.offset_m, -1.0)
+    surely = trust.another_is_sure(words, own, t_s)
+    agrees = surely and distance(unbiased, joint.position) < AGREES_WITHIN_M
+    std_m = BELIEVED_STD_M if believed else AGREEING_STD_M if agrees else DOUBTED_STD_M
+    box_m = BELIEVED_HALF_WIDTH_M if believed else DOUBTED_HALF_WIDTH_M
+    from_lens = plus(row(measured.positions, j), seen.lens_in_room, -1.0)
+    half_width = half_width_in_room(from_lens, seen.rotation_sensor_to_room, box_m)
+    return Evidence(
+        position=position,
         unbiased=unbiased,
-        believed=verdict.believed,
-        unchecked=verdict.believed & ~surely & ~trust.believed_lately((own,), t_s),
-        shared=verdict.believed & surely,
-        used=measured.given & ~outvoted,
-        outvoted=outvoted,
-        wandering=verdict.wandering,
+        believed=believed,
+        unchecked=believed and not surely and not trust.is_sure(word, t_s),
+        shared=believed and surely,
+        outvoted=surely and not believed and not agrees,
         variance=std_m**2,
-        half_width=half_width,
+        half_width=widened(half_width, SPEED_MAX * late_s),
     )
-    return evidence, learnt
-
-
-def _half_width(sample: AlignedSample, measured: Measurement, believed: Flags) -> Floats:
-    in_sensor = np.where(believed[:, None], BELIEVED_HALF_WIDTH_M, DOUBTED_HALF_WIDTH_M)
-    return half_width_in_room(sample, measured.positions, in_sensor)

@@ -2,32 +2,35 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from math import isinf, sqrt
 from typing import ClassVar, Final
 
 import numpy as np
 
+from fusion.compiled import Records, kernel, record
 from fusion.estimation import gated_filter, refusals
 from fusion.estimation.estimator import Estimator
 from fusion.estimation.freshness import TOO_OLD_S, state_of
-from fusion.estimation.gated_filter import Track
-from fusion.estimation.measurement import Flags, Measurement, read
-from fusion.messages import AlignedSample, Floats, FusedFrame, Refusal
+from fusion.estimation.gated_filter import GATE_SIGMA
+from fusion.estimation.measurement import Sight, read, sight
+from fusion.estimation.vectors import put, row
+from fusion.messages import AlignedSample, Floats, FusedFrame, Refusal, States
 from fusion.skeleton import JOINT_COUNT
 
 TRACKED_STD_M: Final = 0.035
 INFERRED_STD_M: Final = 0.14
-GATE_SIGMA: Final = 4.0
-RESTART_AFTER_S: Final = 0.5
-"""Refusals in a row for this long mean that the track is wrong, not the sensors."""
+REASONS: Final = ("", f"beyond {GATE_SIGMA:g} sigma")
+TAKEN, GATE = range(len(REASONS))
+JOINT: Final = record(gated_filter.FIELDS)
 
 
 @dataclass(frozen=True, slots=True)
 class KalmanState:
-    """All that the filter knows."""
+    """All that the filter knows at `t_s`."""
 
-    track: Track
-    refused_since_s: Floats  # (J,) when the present row of refusals began; +inf when there is none
+    t_s: float
+    joints: Records  # (J,) of JOINT
     latest: refusals.Latest
 
 
@@ -36,24 +39,20 @@ class Kalman(Estimator):
 
     name: ClassVar[str] = "kalman"
 
-    def __init__(self) -> None:
-        self._state = KalmanState(gated_filter.unseen(-np.inf), np.full(JOINT_COUNT, np.inf), ())
+    def __init__(self, joints: int = JOINT_COUNT) -> None:
+        self._state = KalmanState(-np.inf, _unseen(np.zeros(joints, JOINT)), ())
 
     def update(self, sample: AlignedSample) -> tuple[Refusal, ...]:
         """Predict to the sample, refuse what is beyond the gate, take the rest."""
-        if sample.t_s < self._state.track.t_s - TOO_OLD_S:
+        if sample.t_s < self._state.t_s - TOO_OLD_S:
             return ()
-        self._state, refused = _take(self._state, sample)
+        self._state, refused = _updated(self._state, sample)
         return refused
 
     def frame(self, t_s: float) -> FusedFrame:
         """The predicted mean; the set is the ball of four standard deviations."""
-        track = gated_filter.predict(self._state.track, t_s)
-        seen = np.isfinite(track.seen_s)
-        bound_m = np.where(seen, GATE_SIGMA * np.sqrt(track.pp), np.inf)
-        shape_m2 = np.where(seen, bound_m, np.nan)[:, None, None] ** 2 * np.eye(3)
-        recent = refusals.fresh(self._state.latest, t_s)
-        return FusedFrame(t_s, track.position, shape_m2, bound_m, state_of(track.seen_s, t_s), recent)
+        told = _tell(self._state.joints, self._state.t_s, float(t_s))
+        return FusedFrame(t_s, *told, refusals.fresh(self._state.latest, t_s))
 
     def snapshot(self) -> object:
         """The filter's state."""
@@ -66,23 +65,59 @@ class Kalman(Estimator):
         self._state = snapshot
 
 
-def _take(state: KalmanState, sample: AlignedSample) -> tuple[KalmanState, tuple[Refusal, ...]]:
-    track = gated_filter.predict(state.track, sample.t_s)
-    measured = read(sample)
-    measured = replace(measured, positions=gated_filter.carried_on(track, measured.positions, sample.t_s))
-    variance = np.where(measured.tracked, TRACKED_STD_M**2, INFERRED_STD_M**2)
-    near, refused_since_s = _gate(state, track, measured, variance)
-    begin = measured.given & ~near & (track.t_s - refused_since_s >= RESTART_AFTER_S)
-    begin |= measured.given & np.isneginf(track.seen_s)
-    track = gated_filter.correct(track, measured.positions, variance, near)
-    track = gated_filter.start(track, measured.positions, variance, begin)
-    refused = refusals.refuse(sample.sensor, measured.given & ~near & ~begin, f"beyond {GATE_SIGMA:g} sigma")
-    latest = refusals.remember(state.latest, sample.sensor, sample.t_s, refused)
-    return KalmanState(track, np.where(begin, np.inf, refused_since_s), latest), refused
+def _updated(state: KalmanState, sample: AlignedSample) -> tuple[KalmanState, tuple[Refusal, ...]]:
+    at_s = float(sample.t_s)
+    t_s = max(at_s, state.t_s)
+    joints, codes = _take(state.joints, sight(sample), state.t_s, t_s, t_s - at_s)
+    refused = refusals.refused(sample.sensor, codes, REASONS)
+    return KalmanState(t_s, joints, refusals.remember(state.latest, sample.sensor, at_s, refused)), refused
 
 
-def _gate(state: KalmanState, track: Track, measured: Measurement, variance: Floats) -> tuple[Flags, Floats]:
-    """Which joints pass, and since when each has been refused in a row."""
-    near = measured.given & (gated_filter.sigmas_off(track, measured.positions, variance) <= GATE_SIGMA)
-    still = np.where(measured.given, np.minimum(state.refused_since_s, track.t_s), state.refused_since_s)
-    return near, np.where(near, np.inf, still)
+@kernel
+def _unseen(joints: Records) -> Records:
+    for j in range(len(joints)):
+        gated_filter.forget(joints[j])
+    return joints
+
+
+@kernel
+def _take(before: Records, seen: Sight, from_s: float, t_s: float, late_s: float) -> tuple[Records, refusals.Codes]:
+    """Move all joints from `from_s` to `t_s`, take what was measured `late_s` before, say what was refused."""
+    joints, measured = before.copy(), read(seen)
+    codes = np.zeros(len(joints), np.uint8)
+    for j in range(len(joints)):
+        joint = joints[j]
+        gated_filter.predict(joint, from_s, t_s)
+        if not measured.given[j]:
+            continue
+        position = gated_filter.carried_on(joint, row(measured.positions, j), late_s)
+        variance = TRACKED_STD_M**2 if measured.tracked[j] else INFERRED_STD_M**2
+        near = gated_filter.sigmas_off(joint, position, variance) <= GATE_SIGMA
+        insists = gated_filter.insists(joint, near, t_s)
+        if near:
+            gated_filter.correct(joint, position, variance, t_s)
+        elif insists or isinf(joint.seen_s):
+            gated_filter.start(joint, position, variance, t_s)
+        else:
+            codes[j] = GATE
+    return joints, codes
+
+
+@kernel
+def _tell(before: Records, from_s: float, t_s: float) -> tuple[Floats, Floats, Floats, States]:
+    """Positions (J, 3), shapes (J, 3, 3), bounds (J,) and states (J,) of the joints moved on to `t_s`."""
+    joints, count = before.copy(), len(before)
+    positions, shape_m2 = np.empty((count, 3)), np.zeros((count, 3, 3))
+    bound_m, states = np.empty(count), np.empty(count, np.uint8)
+    for j in range(count):
+        joint = joints[j]
+        gated_filter.predict(joint, from_s, t_s)
+        seen = not isinf(joint.seen_s)
+        put(positions, j, (joint.position[0], joint.position[1], joint.position[2]))
+        bound_m[j] = GATE_SIGMA * sqrt(joint.pp) if seen else np.inf
+        for k in range(3):
+            shape_m2[j, k, k] = bound_m[j] ** 2
+        if not seen:
+            shape_m2[j] = np.nan
+        states[j] = state_of(joint.seen_s, t_s)
+    return positions, shape_m2, bound_m, states

@@ -2,19 +2,31 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from math import isfinite
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from fusion.compiled import kernel
+from fusion.estimation.vectors import put, row
 from fusion.messages import AlignedSample, Floats, States
 from fusion.skeleton import TrackingState
 
 Flags = NDArray[np.bool_]
+TRACKED, LOST = TrackingState.TRACKED, TrackingState.LOST
 
 
-@dataclass(frozen=True, slots=True)
-class Measurement:
+class Sight(NamedTuple):
+    """A sample's arrays as kernels take them: our own, in one layout, whatever was handed in."""
+
+    positions_in_room: Floats  # (J, 3) m
+    state: States  # (J,)
+    lens_in_room: Floats  # (3,)
+    rotation_sensor_to_room: Floats  # (3, 3)
+
+
+class Measurement(NamedTuple):
     """The joints that a sample can speak for; the others hold zeros, so that no NaN enters any sum."""
 
     positions: Floats  # (J, 3) m in room, 0 where not given
@@ -22,14 +34,24 @@ class Measurement:
     tracked: Flags  # (J,) given and tracked; given but not tracked means inferred
 
 
-def read(sample: AlignedSample) -> Measurement:
+def sight(sample: AlignedSample) -> Sight:
+    """Copies, so that no kernel is compiled anew for an array that is read-only or lies otherwise in memory."""
+    return Sight(
+        np.array(sample.positions_in_room, np.float64, order="C"),
+        np.array(sample.state, np.uint8),
+        np.array(sample.lens_in_room, np.float64),
+        np.array(sample.rotation_sensor_to_room, np.float64, order="C"),
+    )
+
+
+@kernel
+def read(seen: Sight) -> Measurement:
     """Leave out what is not tracked at all and what is not a number."""
-    given = is_given(sample.positions_in_room, sample.state)
-    positions = np.where(given[:, None], sample.positions_in_room, 0.0)
-    return Measurement(positions, given, given & (sample.state == TrackingState.TRACKED))
-
-
-def is_given(positions: Floats, state: States) -> Flags:
-    """(J,) whether a joint is tracked or inferred, at a finite place."""
-    given: Flags = (state != TrackingState.LOST) & np.isfinite(positions).all(axis=-1)
-    return given
+    positions = np.zeros_like(seen.positions_in_room)
+    given = np.zeros(len(positions), np.bool_)
+    for j in range(len(positions)):
+        place = row(seen.positions_in_room, j)
+        given[j] = seen.state[j] != LOST and isfinite(place[0]) and isfinite(place[1]) and isfinite(place[2])
+        if given[j]:
+            put(positions, j, place)
+    return Measurement(positions, given, given & (seen.state == TRACKED))

@@ -1,21 +1,22 @@
-"""The set that holds each joint's position and velocity, moved on under bounded acceleration and speed.
+"""The set that holds a joint's position and velocity, moved on under bounded acceleration and speed.
 
 On each of the room's axes an ellipse in [p; v] couples position with velocity, and an interval beside it keeps what
 the latest boxes said: a joint lies in the intersection. In one ellipsoid of six dimensions every strip would leave
 √6 of its width; on an axis of its own it leaves √2, and the interval cuts that too.
+
+Any evidence of where a joint is cuts its set: `take(joint, centre, half)`, whoever says it.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Final
+from math import sqrt
+from typing import Final, NamedTuple
 
 import numpy as np
 
-from fusion.estimation.ellipsoid import Ellipsoids, choose, cut, half_width, outer_sum
-from fusion.estimation.measurement import Flags
-from fusion.messages import Floats
-from fusion.skeleton import JOINT_COUNT
+from fusion.compiled import Record, kernel, record
+from fusion.estimation.ellipse import Ellipse, Normal, cut, outer_sum
+from fusion.estimation.vectors import Vector
 
 ACCELERATION_MAX: Final = 20.0
 """m/s², what a limb can do [methods §5]."""
@@ -23,92 +24,107 @@ SPEED_MAX: Final = 6.0
 """m/s, likewise."""
 ENDLESS_M: Final = 1e3
 """Farther than any sensor sees, and still a number."""
-POSITION: Final = np.array([1.0, 0.0])
-VELOCITY: Final = np.array([0.0, 1.0])
+POSITION: Final[Normal] = (1.0, 0.0)
+VELOCITY: Final[Normal] = (0.0, 1.0)
+
+AXIS: Final = record([(name, "f8") for name in (*Ellipse._fields, "low", "high")])
+FIELDS: Final = [("on", AXIS, (3,))]
+"""What the set adds to a joint's record; m and m/s."""
 
 
-@dataclass(frozen=True, slots=True)
-class MotionSet:
-    """At `t_s`, on every axis, [p; v] lies in the ellipse and p in low..high. A joint never seen may be anywhere."""
+class Axis(NamedTuple):
+    """On one of the room's axes [p; v] lies in the ellipse and p in low..high."""
 
-    t_s: float
-    body: Ellipsoids  # (J, 3), D = 2; m and m/s
-    low: Floats  # (J, 3) m
-    high: Floats  # (J, 3) m
+    body: Ellipse
+    low: float
+    high: float
 
 
-def anywhere(t_s: float) -> MotionSet:
-    """Nothing known; `begin` replaces it joint by joint."""
-    shape = np.broadcast_to(np.eye(2), (JOINT_COUNT, 3, 2, 2))
-    endless = np.full((JOINT_COUNT, 3), ENDLESS_M)
-    return MotionSet(t_s, Ellipsoids(np.zeros((JOINT_COUNT, 3, 2)), shape), -endless, endless)
+@kernel
+def forget(joint: Record) -> None:
+    """Nothing known: the joint may be anywhere."""
+    for k in range(3):
+        _write(joint.on[k], Axis(Ellipse(0.0, 0.0, 1.0, 0.0, 1.0), -ENDLESS_M, ENDLESS_M))
 
 
-def move(motion: MotionSet, t_s: float) -> MotionSet:
-    """Hold all that p' = v, |v'| <= 20 m/s² and |v| <= 6 m/s can reach by `t_s`."""
-    dt = t_s - motion.t_s
-    if not 0 < dt < np.inf:  # an older sample, or the very first
-        return MotionSet(max(t_s, motion.t_s), motion.body, motion.low, motion.high)
-    step = np.array([[1.0, dt], [0.0, 1.0]])
-    moved = outer_sum(Ellipsoids(motion.body.centre @ step.T, step @ motion.body.shape @ step.T), _reach(dt))
-    body, _ = cut(moved, VELOCITY, np.zeros((JOINT_COUNT, 3)), np.full((JOINT_COUNT, 3), SPEED_MAX))
-    slowest, fastest = _speeds(motion.body, dt)
-    return MotionSet(t_s, _symmetric(body), motion.low + slowest * dt, motion.high + fastest * dt)
+@kernel
+def move(joint: Record, dt: float) -> None:
+    """Hold all that p' = v, |v'| <= 20 m/s² and |v| <= 6 m/s can reach within `dt`; nothing for what is not later."""
+    if 0 < dt < np.inf:
+        for k in range(3):
+            _write(joint.on[k], moved(axis_of(joint, k), dt))
 
 
-def _reach(dt: float) -> Floats:
-    """(2, 2) ellipse of what a changing acceleration adds in `dt`: Δv within ±A dt, Δp within dt/2 Δv ± A dt²/4."""
-    together = np.array([dt**2 / 2, dt])
-    apart = np.array([dt**2 / 4, 0.0])
-    return 2 * ACCELERATION_MAX**2 * (np.outer(together, together) + np.outer(apart, apart))
+@kernel
+def take(joint: Record, centre: Vector, half: Vector) -> bool:
+    """Cut with |p - centre| <= half on every axis, in metres; says whether that met the set, which else stays."""
+    x, met_x = cut_axis(axis_of(joint, 0), centre[0], half[0])
+    y, met_y = cut_axis(axis_of(joint, 1), centre[1], half[1])
+    z, met_z = cut_axis(axis_of(joint, 2), centre[2], half[2])
+    met = met_x and met_y and met_z
+    if met:
+        _write(joint.on[0], x)
+        _write(joint.on[1], y)
+        _write(joint.on[2], z)
+    return met
 
 
-def _speeds(body: Ellipsoids, dt: float) -> tuple[Floats, Floats]:
-    """(J, 3) m/s, the least and greatest mean velocity over the next `dt`."""
-    middle = body.centre[..., 1]
-    spread = half_width(body)[..., 1] + ACCELERATION_MAX * dt / 2
-    return np.maximum(middle - spread, -SPEED_MAX), np.minimum(middle + spread, SPEED_MAX)
+@kernel
+def begin(joint: Record, centre: Vector, half: Vector) -> None:
+    """Start from a box alone, at any speed within the bound; doubled, so that the ellipse holds the whole rectangle."""
+    for k in range(3):
+        body = Ellipse(centre[k], 0.0, 2 * half[k] ** 2, 0.0, 2 * SPEED_MAX**2)
+        _write(joint.on[k], Axis(body, centre[k] - half[k], centre[k] + half[k]))
 
 
-def _symmetric(body: Ellipsoids) -> Ellipsoids:
-    """Sums and cuts multiply what rounding leaves of asymmetry and never shrink it; it grew to metres in seconds."""
-    return Ellipsoids(body.centre, (body.shape + body.shape.swapaxes(-1, -2)) / 2)
+@kernel
+def extent(joint: Record, k: int) -> tuple[float, float]:
+    """The least and greatest position on axis `k` that is still possible, in metres."""
+    axis = axis_of(joint, k)
+    half = sqrt(axis.body.pp)
+    return max(axis.low, axis.body.p - half), min(axis.high, axis.body.p + half)
 
 
-def take(motion: MotionSet, positions: Floats, half: Floats, used: Flags) -> tuple[MotionSet, Flags]:
-    """Cut with |p - positions| <= half (J, 3) m where `used` (J,); says which joints' measurements met their set.
-
-    A joint whose measurement does not meet its set stays as it was.
-    """
-    low, high = np.maximum(motion.low, positions - half), np.minimum(motion.high, positions + half)
-    met = used & (low < high).all(axis=1)
-    body, meets = cut(motion.body, POSITION, (low + high) / 2, np.where(met[:, None], (high - low) / 2, np.inf))
-    met &= meets.all(axis=1)
-    return _replaced(motion, met, body, low, high), met
+@kernel
+def moved(axis: Axis, dt: float) -> Axis:
+    """One axis moved on by `dt` > 0."""
+    slowest, fastest = _speeds(axis.body, dt)
+    body, _ = cut(_carried(axis.body, dt), VELOCITY, 0.0, SPEED_MAX)
+    return Axis(body, axis.low + slowest * dt, axis.high + fastest * dt)
 
 
-def begin(motion: MotionSet, positions: Floats, half: Floats, which: Flags) -> MotionSet:
-    """Start the joints in `which` from their box alone, at any speed within the bound."""
-    if not which.any():
-        return motion
-    shape = np.zeros((JOINT_COUNT, 3, 2, 2))
-    shape[..., 0, 0] = 2 * half**2  # doubled, so that the ellipse holds the whole rectangle
-    shape[..., 1, 1] = 2 * SPEED_MAX**2
-    centre = np.stack([positions, np.zeros_like(positions)], axis=-1)
-    return _replaced(motion, which, Ellipsoids(centre, shape), positions - half, positions + half)
+@kernel
+def _carried(body: Ellipse, dt: float) -> Ellipse:
+    """F E ⊕ Q with Q what a changing acceleration adds: Δv within ±A dt, Δp within dt/2 Δv ± A dt²/4."""
+    pp = body.pp + 2 * dt * body.pv + dt**2 * body.vv
+    straight = Ellipse(body.p + body.v * dt, body.v, pp, body.pv + dt * body.vv, body.vv)
+    doubled = 2 * ACCELERATION_MAX**2
+    return outer_sum(straight, doubled * (dt**4 / 4 + dt**4 / 16), doubled * dt**3 / 2, doubled * dt**2)
 
 
-def extent(motion: MotionSet) -> tuple[Floats, Floats]:
-    """(J, 3) m, the least and greatest position on each axis that is still possible."""
-    middle, half = motion.body.centre[..., 0], half_width(motion.body)[..., 0]
-    return np.maximum(motion.low, middle - half), np.minimum(motion.high, middle + half)
+@kernel
+def _speeds(body: Ellipse, dt: float) -> tuple[float, float]:
+    """The least and greatest mean velocity over the next `dt`, in m/s."""
+    spread = sqrt(body.vv) + ACCELERATION_MAX * dt / 2
+    return max(body.v - spread, -SPEED_MAX), min(body.v + spread, SPEED_MAX)
 
 
-def _replaced(motion: MotionSet, which: Flags, body: Ellipsoids, low: Floats, high: Floats) -> MotionSet:
-    on_axes = which[:, None]
-    return MotionSet(
-        motion.t_s,
-        choose(np.broadcast_to(on_axes, low.shape), body, motion.body),
-        np.where(on_axes, low, motion.low),
-        np.where(on_axes, high, motion.high),
-    )
+@kernel
+def cut_axis(axis: Axis, middle: float, half: float) -> tuple[Axis, bool]:
+    """One axis cut with |p - middle| <= half; says whether they met, and is meaningless where they did not."""
+    low, high = max(axis.low, middle - half), min(axis.high, middle + half)
+    body, met = cut(axis.body, POSITION, (low + high) / 2, (high - low) / 2)
+    return Axis(body, low, high), met and low < high
+
+
+@kernel
+def axis_of(joint: Record, k: int) -> Axis:
+    """What a joint's record says of one axis."""
+    on = joint.on[k]
+    return Axis(Ellipse(on.p, on.v, on.pp, on.pv, on.vv), on.low, on.high)
+
+
+@kernel
+def _write(on: Record, axis: Axis) -> None:
+    on.p, on.v, on.pp, on.pv, on.vv = axis.body.p, axis.body.v, axis.body.pp, axis.body.pv, axis.body.vv
+    on.low, on.high = axis.low, axis.high

@@ -3,74 +3,81 @@
 The stable form of [Du2016 §2.4], see [methods §5]. Every believed measurement is a box in range, azimuth and elevation
 that cuts the set; a bound of ±0.2 m refuses nothing below half a metre, so the point is the mean of a gated filter
 that takes only what is believed, or what agrees with it.
+
+All that is known is one record per joint (`JOINT`), one per joint and sensor (`WORD`) and one per bone and sensor.
+Kernels change records in place, but only those of copies that they make first: a state once told never changes.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import isfinite
 from typing import ClassVar, Final
 
 import numpy as np
 
-from fusion.estimation import ball, bias, gated_filter, motion_set, refusals, trust
+from fusion.compiled import Record, Records, kernel, record
+from fusion.estimation import ball, bias, bones, gated_filter, motion_set, refusals, trust
 from fusion.estimation.estimator import Estimator
 from fusion.estimation.evidence import Evidence, weigh
 from fusion.estimation.freshness import LOST_AFTER_S, TOO_OLD_S, state_of
-from fusion.estimation.gated_filter import Track
-from fusion.estimation.measurement import Flags
-from fusion.estimation.motion_set import MotionSet
-from fusion.estimation.trust import SensorTrust
-from fusion.messages import AlignedSample, Floats, FusedFrame, Refusal
+from fusion.estimation.gated_filter import GATE_SIGMA
+from fusion.estimation.measurement import Sight, read, sight
+from fusion.estimation.vectors import distance, length, plus
+from fusion.messages import AlignedSample, Floats, FusedFrame, Refusal, States
 from fusion.skeleton import JOINT_COUNT
 
-GATE_SIGMA: Final = 4.0
-RESTART_AFTER_S: Final = 0.5
-"""Refusals in a row for this long mean that the set is wrong, not the sensors."""
+JOINT: Final = record([*gated_filter.FIELDS, *motion_set.FIELDS, *ball.FIELDS])
+WORD: Final = record([*trust.FIELDS, *bias.FIELDS])
+
+REASONS: Final = (
+    "",
+    "bone length changed",
+    "in doubt, another sensor is sure",
+    f"beyond {GATE_SIGMA:g} sigma",
+    "does not meet the set",
+)
+TAKEN, BONE, DOUBT, GATE, SET = range(len(REASONS))
 
 
 @dataclass(frozen=True, slots=True)
 class SetState:
-    """All that the estimator knows."""
+    """All that the estimator knows at `t_s`, of J joints and K sensors with B bones."""
 
-    track: Track
-    motion: MotionSet
-    sensors: tuple[SensorTrust, ...]
-    biases: bias.Biases
-    worst_innovation_m: Floats  # (J,)
-    refused_since_s: Floats  # (J,) when the present row of refusals began; +inf when there is none
+    t_s: float
+    joints: Records  # (J,) of JOINT
+    sensors: tuple[str, ...]
+    words: Records  # (J, K) of WORD
+    bones: Records  # (K, B) of bones.BONE
     latest: refusals.Latest
 
 
 class SetMembership(Estimator):
-    """Gated mean inside a set under bounded error, acceleration and speed."""
+    """Gated mean inside a set under bounded error, acceleration and speed.
+
+    Args:
+        joints: how many; the bones between them are those of `fusion.skeleton`.
+    """
 
     name: ClassVar[str] = "set-membership"
 
-    def __init__(self) -> None:
-        none = np.full(JOINT_COUNT, np.inf)
-        nothing = gated_filter.unseen(-np.inf)
-        self._state = SetState(nothing, motion_set.anywhere(-np.inf), (), (), ball.start(), none, ())
+    def __init__(self, joints: int = JOINT_COUNT) -> None:
+        nobody = np.zeros((joints, 0), WORD)
+        no_bones = np.tile(bones.unknown(joints), (0, 1))
+        self._state = SetState(-np.inf, _unseen(np.zeros(joints, JOINT)), (), nobody, no_bones, ())
 
     def update(self, sample: AlignedSample) -> tuple[Refusal, ...]:
         """Judge the sample, cut the set with what is believed of it, and move the point."""
-        if sample.t_s < self._state.track.t_s - TOO_OLD_S:
+        if sample.t_s < self._state.t_s - TOO_OLD_S:
             return ()
-        self._state, refused = _take(self._state, sample)
+        self._state, refused = _updated(_acquainted(self._state, sample), sample)
         return refused
 
     def frame(self, t_s: float) -> FusedFrame:
         """The filter's mean kept inside the set, and the farthest point of set and ball from it."""
         state = self._state
-        track = gated_filter.predict(state.track, t_s)
-        low, high = motion_set.extent(motion_set.move(state.motion, t_s))
-        point = np.clip(track.position, low, high)
-        half = np.maximum(high - point, point - low)  # (J, 3)
-        corner_m = np.linalg.norm(half, axis=1)
-        radius_m = ball.radius_m(state.worst_innovation_m, trust.last_believed_s(state.sensors), t_s)
-        bound_m = np.where(np.isfinite(track.seen_s), np.minimum(corner_m, radius_m), np.inf)
-        shape_m2 = _shape(half, bound_m, radius_m < corner_m)
-        recent = refusals.fresh(state.latest, t_s)
-        return FusedFrame(t_s, point, shape_m2, bound_m, state_of(track.seen_s, t_s), recent)
+        told = _tell(state.joints, state.words, state.t_s, float(t_s))
+        return FusedFrame(t_s, *told, refusals.fresh(state.latest, t_s))
 
     def snapshot(self) -> object:
         """The estimator's state."""
@@ -83,66 +90,135 @@ class SetMembership(Estimator):
         self._state = snapshot
 
 
-def _shape(half: Floats, bound_m: Floats, is_ball: Flags) -> Floats:
-    """(J, 3, 3) m², the ball, or the ellipsoid around the set's box; NaN for a joint never seen."""
-    squares = np.where(is_ball[:, None], bound_m[:, None] ** 2, 3 * half**2)
-    return np.where(np.isfinite(bound_m), 1.0, np.nan)[:, None, None] * squares[:, :, None] * np.eye(3)
+def _acquainted(state: SetState, sample: AlignedSample) -> SetState:
+    """The state with room for what is to be learnt of the sample's sensor."""
+    if sample.sensor in state.sensors:
+        return state
+    joints = len(state.joints)
+    stranger = np.zeros((joints, 1), WORD)
+    stranger["doubted_s"] = stranger["believed_s"] = -np.inf
+    stranger["heard_s"] = max(sample.t_s, state.t_s)
+    words = np.concatenate([state.words, stranger], axis=1)
+    known_bones = np.concatenate([state.bones, bones.unknown(joints)[None]])
+    return SetState(state.t_s, state.joints, (*state.sensors, sample.sensor), words, known_bones, state.latest)
 
 
-def _take(state: SetState, sample: AlignedSample) -> tuple[SetState, tuple[Refusal, ...]]:
-    track = gated_filter.predict(state.track, sample.t_s)
-    motion = motion_set.move(state.motion, sample.t_s)
-    own, others = trust.split(state.sensors, sample.sensor)
-    evidence, own = weigh(sample, own, others, track, bias.offset_of(state.biases, sample.sensor))
-    fit = _fit(state, track, motion, evidence)
-    innovation_m = np.linalg.norm(evidence.unbiased - track.position, axis=1)
-    worst_m = ball.learn(
-        state.worst_innovation_m, innovation_m, fit.taken & evidence.believed, track.t_s - state.track.t_s
+def _updated(state: SetState, sample: AlignedSample) -> tuple[SetState, tuple[Refusal, ...]]:
+    own, at_s = state.sensors.index(sample.sensor), float(sample.t_s)
+    t_s = max(at_s, state.t_s)
+    joints, words, known_bones, codes = _take(
+        state.joints, state.words, state.bones, own, sight(sample), state.t_s, t_s, t_s - at_s
     )
-    refused = _refusals(sample.sensor, evidence, fit)
-    latest = refusals.remember(state.latest, sample.sensor, sample.t_s, refused)
-    own = trust.believe(own, track.t_s, (fit.taken | fit.begun) & evidence.believed)
-    difference_m = evidence.positions - track.position
-    biases = bias.learn(state.biases, sample.sensor, track.t_s, difference_m, evidence.shared & fit.taken & fit.near)
-    track = _corrected(track, evidence, fit)
-    motion = motion_set.begin(fit.motion, evidence.positions, evidence.half_width, fit.begun)
-    return SetState(track, motion, (*others, own), biases, worst_m, fit.refused_since_s, latest), refused
+    refused = refusals.refused(sample.sensor, codes, REASONS)
+    latest = refusals.remember(state.latest, sample.sensor, at_s, refused)
+    return SetState(t_s, joints, state.sensors, words, known_bones, latest), refused
 
 
-@dataclass(frozen=True, slots=True)
-class Fit:
-    """How the evidence fits what was expected."""
-
-    motion: MotionSet  # cut with what is taken
-    near: Flags  # (J,) used and within the gate
-    taken: Flags  # (J,) within the gate, or with nothing to judge it by, and meeting the set
-    begun: Flags  # (J,) used, and the joint starts anew from it
-    refused_since_s: Floats  # (J,)
+@kernel
+def _unseen(joints: Records) -> Records:
+    for j in range(len(joints)):
+        gated_filter.forget(joints[j])
+        motion_set.forget(joints[j])
+        joints[j].worst_innovation_m = ball.START_M
+    return joints
 
 
-def _fit(state: SetState, track: Track, motion: MotionSet, evidence: Evidence) -> Fit:
-    near = evidence.used & (gated_filter.sigmas_off(track, evidence.unbiased, evidence.variance) <= GATE_SIGMA)
-    motion, met = motion_set.take(motion, evidence.positions, evidence.half_width, near | evidence.unchecked)
-    since_s = np.where(evidence.used, np.minimum(state.refused_since_s, track.t_s), state.refused_since_s)
-    since_s = np.where(met, np.inf, since_s)
-    lost = ~(track.t_s - track.seen_s < LOST_AFTER_S)
-    begun = evidence.used & (lost | (track.t_s - since_s >= RESTART_AFTER_S))
-    return Fit(motion, near, met & ~begun, begun, np.where(begun, np.inf, since_s))
+@kernel
+def _take(
+    before: Records,
+    words_before: Records,
+    bones_before: Records,
+    own: int,
+    seen: Sight,
+    from_s: float,
+    t_s: float,
+    late_s: float,
+) -> tuple[Records, Records, Records, refusals.Codes]:
+    """Move all joints from `from_s` to `t_s`, take what sensor `own` measured `late_s` before.
+
+    Returns the joints, words and bones after, and what was refused of each joint.
+    """
+    joints, words, known_bones = before.copy(), words_before.copy(), bones_before.copy()
+    measured = read(seen)
+    wandering = bones.judge(known_bones[own], measured)
+    codes = np.zeros(len(joints), np.uint8)
+    for j in range(len(joints)):
+        joint = joints[j]
+        gated_filter.predict(joint, from_s, t_s)
+        motion_set.move(joint, t_s - from_s)
+        share = bias.share_of(words[j, own], t_s)
+        if not measured.given[j]:
+            continue
+        evidence = weigh(seen, measured, wandering, j, joint, words[j], own, t_s, late_s)
+        if evidence.outvoted:
+            codes[j] = BONE if wandering[j] else DOUBT
+            continue
+        codes[j] = _use(joint, words[j], own, evidence, share, t_s, t_s - from_s)
+    return joints, words, known_bones, codes
 
 
-def _corrected(track: Track, evidence: Evidence, fit: Fit) -> Track:
+@kernel
+def _use(joint: Record, words: Records, own: int, evidence: Evidence, share: float, t_s: float, dt: float) -> int:
+    """Take one joint's evidence if it fits what was expected; the reason where it does not."""
+    near = gated_filter.sigmas_off(joint, evidence.unbiased, evidence.variance) <= GATE_SIGMA
+    tried = near or evidence.unchecked
+    met = tried and motion_set.take(joint, evidence.position, evidence.half_width)
+    insists = gated_filter.insists(joint, met, t_s)
+    difference_m = plus(evidence.position, joint.position, -1.0)
+    begun = insists or not t_s - joint.seen_s < LOST_AFTER_S
+    if evidence.shared and met and near and not begun:
+        bias.learn(words, own, difference_m, share)
+    if not (met or begun):
+        return SET if tried else GATE
+    if evidence.believed:
+        words[own].believed_s = t_s
+    if evidence.believed and not begun:
+        ball.learn(joint, distance(evidence.unbiased, joint.position), dt)
+    _move_point(joint, evidence, near and not begun, t_s)
+    if begun:
+        motion_set.begin(joint, evidence.position, evidence.half_width)
+    return TAKEN
+
+
+@kernel
+def _move_point(joint: Record, evidence: Evidence, near: bool, t_s: float) -> None:
     """Take what is near; start anew where the joint is begun, or where it was not near and nothing spoke against it."""
-    corrected = gated_filter.correct(track, evidence.unbiased, evidence.variance, fit.taken & fit.near)
-    anew = fit.begun | (fit.taken & ~fit.near)
-    return gated_filter.start(corrected, evidence.unbiased, evidence.variance, anew)
+    if near:
+        gated_filter.correct(joint, evidence.unbiased, evidence.variance, t_s)
+    else:
+        gated_filter.start(joint, evidence.unbiased, evidence.variance, t_s)
 
 
-def _refusals(sensor: str, evidence: Evidence, fit: Fit) -> tuple[Refusal, ...]:
-    asked = evidence.used & ~fit.taken & ~fit.begun
-    tried = fit.near | evidence.unchecked
-    return (
-        *refusals.refuse(sensor, evidence.outvoted & evidence.wandering, "bone length changed"),
-        *refusals.refuse(sensor, evidence.outvoted & ~evidence.wandering, "in doubt, another sensor is sure"),
-        *refusals.refuse(sensor, asked & ~tried, f"beyond {GATE_SIGMA:g} sigma"),
-        *refusals.refuse(sensor, asked & tried, "does not meet the set"),
-    )
+@kernel
+def _tell(before: Records, words: Records, from_s: float, t_s: float) -> tuple[Floats, Floats, Floats, States]:
+    """Positions (J, 3), shapes (J, 3, 3), bounds (J,) and states (J,) of the joints moved on to `t_s`."""
+    joints, count = before.copy(), len(before)
+    positions, shape_m2 = np.empty((count, 3)), np.zeros((count, 3, 3))
+    bound_m, states = np.empty(count), np.empty(count, np.uint8)
+    for j in range(count):
+        joint = joints[j]
+        gated_filter.predict(joint, from_s, t_s)
+        motion_set.move(joint, t_s - from_s)
+        radius_m = ball.radius_m(joint, trust.last_believed_s(words[j]), t_s)
+        bound_m[j] = _tell_set(joint, radius_m, positions[j], shape_m2[j])
+        states[j] = state_of(joint.seen_s, t_s)
+    return positions, shape_m2, bound_m, states
+
+
+@kernel
+def _tell_set(joint: Record, radius_m: float, point: Floats, shape_m2: Floats) -> float:
+    """Write the point and the ball, or the ellipsoid around the set's box; the farthest point of both from the point.
+
+    NaN and infinite for a joint never seen.
+    """
+    for k in range(3):
+        low, high = motion_set.extent(joint, k)
+        point[k] = min(max(joint.position[k], low), high)
+        shape_m2[k, k] = max(high - point[k], point[k] - low)
+    corner_m = length((shape_m2[0, 0], shape_m2[1, 1], shape_m2[2, 2]))
+    for k in range(3):
+        shape_m2[k, k] = radius_m**2 if radius_m < corner_m else 3 * shape_m2[k, k] ** 2
+    if not isfinite(joint.seen_s):
+        point[:] = shape_m2[:] = np.nan
+        return np.inf
+    return min(corner_m, radius_m)

@@ -6,6 +6,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from fusion.compiled import Records
+from fusion.estimation import motion_set
 from fusion.messages import AlignedSample
 from fusion.skeleton import INDEX, JOINT_COUNT
 
@@ -61,3 +63,9 @@ def changed(sample: AlignedSample, joints: object, by_m: object = 0.0, state: in
         sample.lens_in_room,
         sample.rotation_sensor_to_room,
     )
+
+
+def extents(joints: Records) -> tuple[np.ndarray, np.ndarray]:
+    """(J, 3) m, the least and greatest position that is still possible."""
+    pairs = np.array([[motion_set.extent(joint, k) for k in range(3)] for joint in joints])
+    return pairs[..., 0], pairs[..., 1]

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from fusion.estimation.average import Average
-from fusion.estimation.kalman import RESTART_AFTER_S, Kalman
+from fusion.estimation.gated_filter import RESTART_AFTER_S
+from fusion.estimation.kalman import Kalman
 from fusion.skeleton import TrackingState
 
 from .scene import ELBOW, FRAME_S, WRIST, both, changed, sample_at

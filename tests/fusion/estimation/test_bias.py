@@ -9,15 +9,15 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from fusion.compiled import record
 from fusion.estimation import bias
 from fusion.estimation.set_membership import SetMembership
 from fusion.messages import AlignedSample
-from fusion.skeleton import JOINT_COUNT
 
 from .scene import FRAME_S, WRIST, changed, sample_at
 
 APART_M = np.array([0.07, -0.03, 0.05])
-EVERY = np.ones(JOINT_COUNT, bool)
+WORD = record(bias.FIELDS)
 
 
 def standing(t_s: float, sensor: str, apart_m: np.ndarray = APART_M) -> AlignedSample:
@@ -70,10 +70,11 @@ def test_a_sensor_alone_has_no_bias() -> None:
 @given(seed=st.integers(0, 2**32 - 1), sensors=st.integers(2, 4))
 def test_biases_are_bounded_and_share_nothing(seed: int, sensors: int) -> None:
     rng = np.random.default_rng(seed)
-    biases: bias.Biases = ()
-    for k in range(200):
-        off = rng.normal(0, 0.5, (JOINT_COUNT, 3))
-        biases = bias.learn(biases, f"k{rng.integers(sensors)}", k * FRAME_S, off, EVERY)
-    offsets = np.stack([each.offset_m for each in biases])
-    assert (np.linalg.norm(offsets, axis=2) <= bias.LARGEST_M + 1e-12).all()
-    assert (np.linalg.norm(offsets.mean(axis=0), axis=1) <= bias.LARGEST_M / 2).all()
+    words = np.zeros(sensors, WORD)
+    for k in range(500):
+        own = int(rng.integers(sensors))
+        off_m = tuple(rng.normal(0, 0.5, 3).tolist())
+        bias.learn(words, own, off_m, bias.share_of(words[own], k * FRAME_S))
+        offsets_m = words["offset_m"]
+        assert (np.linalg.norm(offsets_m, axis=1) <= bias.LARGEST_M + 1e-12).all()
+        assert np.linalg.norm(offsets_m.mean(axis=0)) <= bias.LARGEST_M / 2

@@ -15,7 +15,7 @@ from fusion.estimation.set_membership import SetMembership, SetState
 from fusion.messages import AlignedSample, Refusal
 from fusion.skeleton import JOINT_COUNT, TrackingState
 
-from .scene import ELBOW, FRAME_S, HAND, SHOULDER, WRIST, body_at, both, changed, sample_at
+from .scene import ELBOW, FRAME_S, HAND, SHOULDER, WRIST, body_at, both, changed, extents, sample_at
 
 DOUBT = "in doubt, another sensor is sure"
 BONE = "bone length changed"
@@ -42,7 +42,7 @@ def test_the_set_holds_the_truth_for_every_error_within_table_1(seed: int) -> No
     """Errors may stand at the very edge of the box, change at once or not at all, and be shared by both sensors."""
     rng = np.random.default_rng(seed)
     estimator, off = SetMembership(), np.zeros((JOINT_COUNT, 3))
-    least = np.array([BELIEVED_HALF_WIDTH_M.min()] * 3)  # in the room's axes, so the narrowest side counts
+    least = np.full(3, min(BELIEVED_HALF_WIDTH_M))  # in the room's axes, so the narrowest side counts
     for k in range(90):
         if rng.uniform() < 0.3:
             off = rng.choice([-1.0, 0.0, 1.0], off.shape) * least * rng.uniform(size=(JOINT_COUNT, 1))
@@ -52,8 +52,8 @@ def test_the_set_holds_the_truth_for_every_error_within_table_1(seed: int) -> No
         estimator.update(changed(changed(sample, slice(None), off), gone, state=TrackingState.LOST))
         state = estimator.snapshot()
         assert isinstance(state, SetState)
-        low, high = motion_set.extent(state.motion)
-        seen = np.isfinite(state.track.seen_s)
+        low, high = extents(state.joints)
+        seen = np.isfinite(state.joints["seen_s"])
         true = body_at(t_s)
         assert ((low <= true + 1e-9) & (true <= high + 1e-9))[seen].all()
 
@@ -64,7 +64,10 @@ def test_the_point_is_in_the_set_and_the_bound_reaches_no_further_than_its_corne
         t_s = 2.0 + ahead_s
         state = estimator.snapshot()
         assert isinstance(state, SetState)
-        low, high = motion_set.extent(motion_set.move(state.motion, t_s))
+        joints = state.joints.copy()
+        for joint in joints:
+            motion_set.move(joint, t_s - state.t_s)
+        low, high = extents(joints)
         frame = estimator.frame(t_s)
         assert (low <= frame.positions_in_room).all()
         assert (frame.positions_in_room <= high).all()
@@ -76,11 +79,12 @@ def test_a_mean_that_has_left_the_set_is_put_back_into_it() -> None:
     estimator, _ = run(list(both(2.0)))
     state = estimator.snapshot()
     assert isinstance(state, SetState)
-    low, high = motion_set.extent(state.motion)
-    estimator.restore(replace(state, track=replace(state.track, position=high + 0.5)))
-    np.testing.assert_array_equal(estimator.frame(state.track.t_s).positions_in_room, high)
-    estimator.restore(replace(state, track=replace(state.track, position=low - 0.5)))
-    np.testing.assert_array_equal(estimator.frame(state.track.t_s).positions_in_room, low)
+    low, high = extents(state.joints)
+    for end, beyond in ((high, high + 0.5), (low, low - 0.5)):
+        joints = state.joints.copy()
+        joints["position"] = beyond
+        estimator.restore(replace(state, joints=joints))
+        np.testing.assert_array_equal(estimator.frame(state.t_s).positions_in_room, end)
 
 
 def test_shapes_are_symmetric_and_positive_definite() -> None:
