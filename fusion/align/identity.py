@@ -10,13 +10,18 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from math import dist, isnan
 
 import numpy as np
 
+from fusion.align.loops import middle_seen
 from fusion.messages import Floats, SkeletonSample, States
-from fusion.skeleton import INDEX
+from fusion.skeleton import INDEX, JOINT_COUNT
 
-TRUNK = [INDEX[name] for name in ("SpineBase", "SpineMid", "SpineShoulder", "Neck", "ShoulderLeft", "ShoulderRight")]
+TRUNK = np.array(
+    [INDEX[name] for name in ("SpineBase", "SpineMid", "SpineShoulder", "Neck", "ShoulderLeft", "ShoulderRight")]
+)
+EVERY_JOINT = np.arange(JOINT_COUNT)
 ALIVE_S = 0.5
 """A followed body that was not seen for this long may be replaced."""
 BESIDE_S = 0.1
@@ -75,13 +80,8 @@ class _View:
 
 def trunk_centre(positions: Floats, state: States) -> Floats:
     """Median of the trunk's seen joints (3,), of all joints where the trunk is not seen; NaN when nothing is."""
-    for joints in (TRUNK, list(range(len(state)))):
-        seen = positions[joints][state[joints] > 0]
-        seen = seen[np.isfinite(seen).all(axis=1)]
-        if len(seen):
-            centre: Floats = np.sort(seen, axis=0)[len(seen) // 2]
-            return centre
-    return np.full(3, np.nan)
+    centre = middle_seen(positions, state, TRUNK)
+    return middle_seen(positions, state, EVERY_JOINT) if isnan(centre[0]) else centre
 
 
 class PatientFinder:
@@ -121,7 +121,7 @@ class PatientFinder:
                 only where somebody has to be chosen.
         """
         centre = trunk_centre(sample.positions_in_sensor, sample.state)
-        if not np.isfinite(centre).all():
+        if isnan(centre[0]):
             return False
         view = self._views.setdefault(sample.sensor, _View(t_s))
         before = view.seen.get(sample.body)
@@ -145,7 +145,7 @@ class PatientFinder:
 def _jumped(before: Sighting, now: Sighting) -> bool:
     """Whether a number went to somebody else; after a silence anybody may have walked anywhere."""
     dt = now.t_s - before.t_s
-    moved = float(np.linalg.norm(now.centre_in_sensor - before.centre_in_sensor))
+    moved = dist(before.centre_in_sensor, now.centre_in_sensor)
     return dt < ALIVE_S and moved > JUMP_M + JUMP_SPEED_M_S * max(dt, 0.0)
 
 
