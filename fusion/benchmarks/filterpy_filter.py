@@ -8,7 +8,8 @@ import numpy as np
 from filterpy.common import Q_discrete_white_noise
 from filterpy.kalman import KalmanFilter
 
-from fusion.estimation.kalman import GATE_SIGMA, TRACKED_STD_M
+from fusion.estimation.gated_filter import GATE_SIGMA
+from fusion.estimation.kalman import TRACKED_STD_M
 from fusion.messages import AlignedSample, Floats
 
 ACCELERATION_STD = 12.0

@@ -10,17 +10,17 @@ from fusion.offline import fuse_recording
 from fusion.recording.recording import Recording
 from fusion.virtual_patient.trial import virtual_recording
 
-LENGTH_S: Final = 60.0
 SEED: Final = 3
+REPEATS: Final = 3
 
 
-def times_real_time(recordings: Sequence[Recording], repeats: int = 3) -> dict[str, float]:
-    """How much faster than life, the best of some runs, by recording; of a virtual patient where none is given.
+def times_real_time(recordings: Sequence[Recording], length_s: float) -> dict[str, float]:
+    """How much faster than life, the best of some runs, by recording; where none is given, of a virtual patient.
 
     Reading the recording's files and writing the results are not in it.
     """
-    chosen = recordings or (virtual_recording(SEED, LENGTH_S),)
-    return {recording.name: max(_once(recording) for _ in range(repeats)) for recording in chosen}
+    chosen = recordings or (virtual_recording(SEED, length_s),)
+    return {recording.name: max(_once(recording) for _ in range(REPEATS)) for recording in chosen}
 
 
 def _once(recording: Recording) -> float:

@@ -21,10 +21,9 @@ class Candidate:
 
 @dataclass(frozen=True, slots=True)
 class Timing:
-    """Microseconds for one piece of work."""
+    """Microseconds for one piece of work, as often as it was done."""
 
-    per_piece_us: Floats  # (pieces,) in the order in which they were done
-    per_round_us: Floats  # (rounds,) each round's median
+    per_piece_us: Floats  # (pieces,)
 
     @property
     def median_us(self) -> float:
@@ -41,10 +40,6 @@ class Timing:
         """The quickest tenth: nearest to what a quiet machine would show."""
         return float(np.percentile(self.per_piece_us, 10))
 
-    def times_as_long_as(self, other: Timing) -> float:
-        """Median over the rounds of this one's time over the other's."""
-        return float(np.median(self.per_round_us / other.per_round_us))
-
 
 def take_turns(candidates: Mapping[str, Candidate], rounds: int) -> dict[str, Timing]:
     """Do each candidate's work in turn, `rounds` times; one round more is done first and thrown away."""
@@ -54,9 +49,7 @@ def take_turns(candidates: Mapping[str, Candidate], rounds: int) -> dict[str, Ti
             pieces_us = _timed(candidate)
             if number > 0:
                 taken[name].append(pieces_us)
-    return {
-        name: Timing(np.concatenate(parts), np.array([np.median(p) for p in parts])) for name, parts in taken.items()
-    }
+    return {name: Timing(np.concatenate(parts)) for name, parts in taken.items()}
 
 
 def _timed(candidate: Candidate) -> Floats:

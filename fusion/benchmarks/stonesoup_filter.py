@@ -16,7 +16,8 @@ from stonesoup.types.hypothesis import SingleHypothesis
 from stonesoup.types.state import GaussianState
 from stonesoup.updater.kalman import KalmanUpdater
 
-from fusion.estimation.kalman import GATE_SIGMA, TRACKED_STD_M
+from fusion.estimation.gated_filter import GATE_SIGMA
+from fusion.estimation.kalman import TRACKED_STD_M
 from fusion.messages import AlignedSample, Floats
 
 EPOCH: Final = datetime(2000, 1, 1, tzinfo=UTC)

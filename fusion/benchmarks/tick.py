@@ -26,8 +26,8 @@ def tick(length_s: float, seed: int = 3) -> Timing:
     first, second = virtual_recording(seed, length_s, clock_offset_s=0.0).skeleton_streams
     pipeline = Pipeline(PipelineSettings(Side.RIGHT))
     pairs = zip(first.samples, second.samples, strict=False)
-    settled = np.array([_spent_us(pipeline, pair) for pair in pairs])[round(SETTLING_S * FRAMES_PER_S) :]
-    return Timing(settled, settled)
+    spent = np.array([_spent_us(pipeline, pair) for pair in pairs])
+    return Timing(spent[round(SETTLING_S * FRAMES_PER_S) :])
 
 
 def _spent_us(pipeline: Pipeline, pair: tuple[SkeletonSample, ...]) -> float:

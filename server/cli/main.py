@@ -12,6 +12,7 @@ from db.errors import DatabaseError
 from fusion.errors import MirrorlimbError
 from server import __version__
 from server.cli.arm import arm
+from server.cli.bench import bench
 from server.cli.convert import convert
 from server.cli.doctor import doctor
 from server.cli.evaluate import evaluate
@@ -29,7 +30,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     help="Mirror therapy with several sensors and an exoskeleton. Research software, not a medical device.",
 )
-for command in (serve, replay, fuse, evaluate, locate, arm, convert, doctor):
+for command in (serve, replay, fuse, evaluate, locate, arm, bench, convert, doctor):
     app.command(command.__name__)(command)
 
 
