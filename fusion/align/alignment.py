@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
+from fusion.align.loops import turned
 from fusion.messages import AlignedSample, Floats, SkeletonSample
 
 
@@ -36,13 +38,14 @@ class SensorAlignment:
             sample.sensor,
             t_s,
             sample.t_received_s,
-            self.in_reference(sample.positions_in_sensor),
+            turned(sample.positions_in_sensor, self.rotation_sensor_to_reference, self.translation_m),
             sample.state,
             self.translation_m,
             self.rotation_sensor_to_reference,
         )
 
 
+@cache
 def reference_alignment() -> SensorAlignment:
     """The reference sensor's alignment with itself."""
     return SensorAlignment(np.eye(3), np.zeros(3), 0.0, 0.0, 0, 0.0, 0.0)

@@ -8,13 +8,13 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from fusion.compiled import kernel
 from fusion.messages import Floats, States
 
 
-@njit(cache=True)
+@kernel
 def interpolated(
     frames_s: Floats, positions: Floats, state: States, at_s: Floats, longest_s: float
 ) -> tuple[Floats, States]:
@@ -40,7 +40,7 @@ def interpolated(
     return found, seen
 
 
-@njit(cache=True)
+@kernel
 def moved_between(
     before: Floats, state_before: States, after: Floats, state_after: States
 ) -> tuple[NDArray[np.float32], States]:
@@ -56,7 +56,7 @@ def moved_between(
     return moved, state
 
 
-@njit(cache=True)
+@kernel
 def paired(
     reference: Floats, sensor: Floats, velocity: Floats, weight: Floats
 ) -> tuple[Floats, Floats, Floats, Floats]:
@@ -76,22 +76,29 @@ def paired(
     return ours, theirs, speed, kept
 
 
-@njit(cache=True)
-def distances(reference: Floats, sensor: Floats, rotation: Floats, translation: Floats) -> Floats:
-    """How far (N,) the sensor's points (N, 3) are from the reference's once turned and moved."""
-    found = np.empty(len(reference))
-    for n in range(len(reference)):
-        square = 0.0
+@kernel
+def turned(points: Floats, rotation: Floats, translation: Floats) -> Floats:
+    """R p + T of points (N, 3)."""
+    found = np.empty((len(points), 3))
+    for n in range(len(points)):
         for k in range(3):
-            there = translation[k]
+            found[n, k] = translation[k]
             for i in range(3):
-                there += rotation[k, i] * sensor[n, i]
-            square += (reference[n, k] - there) ** 2
-        found[n] = np.sqrt(square)
+                found[n, k] += rotation[k, i] * points[n, i]
     return found
 
 
-@njit(cache=True)
+@kernel
+def distances(reference: Floats, sensor: Floats, rotation: Floats, translation: Floats) -> Floats:
+    """How far (N,) the sensor's points (N, 3) are from the reference's once turned and moved."""
+    there = turned(sensor, rotation, translation)
+    found = np.empty(len(reference))
+    for n in range(len(reference)):
+        found[n] = _apart(reference[n], there[n])
+    return found
+
+
+@kernel
 def robust_weights(given: Floats, distance: Floats, tukey_m: float, huber_m: float) -> Floats:
     """Weights (N,) times Tukey's biweight, which ends at `tukey_m`, times Huber's, which falls from `huber_m` on."""
     kept = np.zeros(len(given))
@@ -102,7 +109,7 @@ def robust_weights(given: Floats, distance: Floats, tukey_m: float, huber_m: flo
     return kept
 
 
-@njit(cache=True)
+@kernel
 def weighted_sums(
     reference: Floats, sensor: Floats, weight: Floats
 ) -> tuple[float, Floats, Floats, Floats, Floats, float]:
@@ -121,7 +128,7 @@ def weighted_sums(
     return total, middle, middle_sensor, cross, scatter, square
 
 
-@njit(cache=True)
+@kernel
 def _mean(points: Floats, weight: Floats) -> Floats:
     mean, total = np.zeros(3), weight.sum()
     for n in range(len(weight)):
@@ -130,7 +137,7 @@ def _mean(points: Floats, weight: Floats) -> Floats:
     return mean / total if total > 0 else mean
 
 
-@njit(cache=True)
+@kernel
 def clearly_crossed(
     reference: Floats, sensor: Floats, weight: Floats, other_side: NDArray[np.int64], share: float
 ) -> NDArray[np.bool_]:
@@ -151,7 +158,7 @@ def clearly_crossed(
     return found
 
 
-@njit(cache=True)
+@kernel
 def offset_sums(errors: Floats, velocity: Floats, weight: Floats, tukey_m: float) -> tuple[float, float, float, float]:
     """Σ w v·v, Σ w e·v, Σ w e·e and Σ w over joints (N, J, 3), `weight` (N, J) times a biweight of the error."""
     information, change, square, total = 0.0, 0.0, 0.0, 0.0
@@ -168,7 +175,7 @@ def offset_sums(errors: Floats, velocity: Floats, weight: Floats, tukey_m: float
     return information, change, square, total
 
 
-@njit(cache=True)
+@kernel
 def middle_seen(positions: Floats, state: States, joints: NDArray[np.int64]) -> Floats:
     """The upper median (3,), axis by axis, of those of the joints (J, 3) that are seen; NaN when none is."""
     seen = np.empty((3, len(joints)))
@@ -184,7 +191,7 @@ def middle_seen(positions: Floats, state: States, joints: NDArray[np.int64]) -> 
     return middle
 
 
-@njit(cache=True)
+@kernel
 def middle_distance(
     positions: Floats, state: States, others: Floats, other_state: States, joints: NDArray[np.int64], tracked: int
 ) -> tuple[float, int]:
@@ -202,12 +209,12 @@ def middle_distance(
     return (np.sort(squares[:count])[count // 2] if count else 0.0), count
 
 
-@njit(cache=True)
+@kernel
 def _dot(a: Floats, b: Floats) -> float:
     product: float = a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
     return product
 
 
-@njit(cache=True)
+@kernel
 def _apart(a: Floats, b: Floats) -> float:
     return math.sqrt((a[0] - b[0]) ** 2 + (a[1] - b[1]) ** 2 + (a[2] - b[2]) ** 2)

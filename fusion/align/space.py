@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fusion.align.loops import clearly_crossed, distances, robust_weights, weighted_sums
+from fusion.align.loops import clearly_crossed, distances, robust_weights, turned, weighted_sums
 from fusion.align.track import Pairs
 from fusion.geometry import nearest_rotation
 from fusion.messages import Floats
@@ -104,8 +104,7 @@ class Mounting:
 
     def aligned(self, pairs: Pairs) -> Floats:
         """The sensor's joints in the reference's frame (N, J, 3), m."""
-        turned = pairs.sensor.reshape(-1, 3) @ self.rotation.T + self.translation_m
-        return turned.reshape(pairs.sensor.shape)
+        return turned(pairs.sensor.reshape(-1, 3), self.rotation, self.translation_m).reshape(pairs.sensor.shape)
 
 
 def mounting(moments: Moments) -> Mounting:

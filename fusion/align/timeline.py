@@ -139,4 +139,5 @@ class ReceiveClock:
     @property
     def delay_s(self) -> float:
         """Median delay of the last frames beyond the least delay seen."""
-        return float(np.median(self._differences)) - self.difference_s if self._differences else 0.0
+        ordered = sorted(self._differences)
+        return ordered[len(ordered) // 2] - self.difference_s if ordered else 0.0

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections import Counter, deque
 
 import numpy as np
@@ -45,8 +46,7 @@ class SensorWatch:
         self._candidates: dict[str, AlignmentLearner] = {}
         """One per body, as long as it is open which of them the reference sees."""
         self._mended: deque[bool] = deque(maxlen=RECENT_MENDS)
-        self._last: SkeletonSample | None = None
-        self._refused_joints = 0
+        self._joints_tracked = self._refused_joints = 0
 
     # --- what comes in
 
@@ -63,7 +63,8 @@ class SensorWatch:
 
     def note(self, sample: SkeletonSample, refused_joints: int, mended: bool) -> None:
         """Remember what became of the patient's sample."""
-        self._last, self._refused_joints = sample, refused_joints
+        self._joints_tracked = int(np.count_nonzero(sample.state == TrackingState.TRACKED))
+        self._refused_joints = refused_joints
         self._mended.append(mended)
 
     def _remember(self, sample: SkeletonSample, t_s: float) -> None:
@@ -160,13 +161,12 @@ class SensorWatch:
         """
         found = self.alignment
         is_reference = reference is self
-        last = self._last
         return SensorQuality(
             sensor=self.sensor,
             is_reference=is_reference,
             frames_per_s=self._rate(now_s),
             latency_s=self.clock.delay_s + self._lag_s(lead_s),
-            joints_tracked=int(np.count_nonzero(last.state == TrackingState.TRACKED)) if last else 0,
+            joints_tracked=self._joints_tracked,
             clock_offset_s=self._clock_offset(reference),
             residual_m=0.0 if is_reference else found.residual_m if found else float("nan"),
             aligned=self.fault is None and (is_reference or found is not None),
@@ -176,8 +176,9 @@ class SensorWatch:
         )
 
     def _rate(self, now_s: float) -> float:
-        recent = [t_s for t_s in self._times if now_s - RATE_OVER_S < t_s]
-        return (len(recent) - 1) / max(recent[-1] - recent[0], 1e-3) if len(recent) > 1 else 0.0
+        first = bisect_right(self._times, now_s - RATE_OVER_S)
+        intervals = len(self._times) - first - 1
+        return intervals / max(self._times[-1] - self._times[first], 1e-3) if intervals > 0 else 0.0
 
     def _lag_s(self, lead_s: float) -> float:
         """How far this sensor is behind the fastest one, as far as that is known."""
@@ -201,6 +202,6 @@ class SensorWatch:
             told.append(f"{self.sensor}: silent. Check its cable, its program and that the patient is in view")
         if self._learner is not None and self._learner.moved:
             told.append(f"{self.sensor}: it was moved; its place is being learnt anew. Let the patient move a little")
-        if len(self._mended) == RECENT_MENDS and np.mean(self._mended) > OFTEN:
+        if len(self._mended) == RECENT_MENDS and sum(self._mended) > OFTEN * RECENT_MENDS:
             told.append(f"{self.sensor}: left and right look exchanged. Let the patient turn towards this sensor")
         return tuple(told)

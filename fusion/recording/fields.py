@@ -9,9 +9,9 @@ from __future__ import annotations
 from typing import Final
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from fusion.compiled import kernel
 from fusion.messages import Floats
 
 Bytes = NDArray[np.uint8]
@@ -25,7 +25,7 @@ _POWERS: Final = 10.0 ** np.arange(_EXACT_DIGITS + 1)
 _FNV_START, _FNV_PRIME = np.uint64(14695981039346656037), np.uint64(1099511628211)
 
 
-@njit(cache=True)
+@kernel
 def split(text: Bytes, at: int, line: int, columns: int) -> tuple[Places, Places, int]:
     """Find the fields of every line that is not empty, up to the first one of another width.
 
@@ -53,7 +53,7 @@ def split(text: Bytes, at: int, line: int, columns: int) -> tuple[Places, Places
     return bounds[:rows], lines[:rows], found
 
 
-@njit(cache=True)
+@kernel
 def _split_line(text: Bytes, at: int, bounds: Places) -> tuple[int, int]:
     """Note where a line's fields begin, as far as there is room; how many there are, and where the next line begins."""
     bounds[0] = at
@@ -70,7 +70,7 @@ def _split_line(text: Bytes, at: int, bounds: Places) -> tuple[int, int]:
     return fields, at + 1
 
 
-@njit(cache=True)
+@kernel
 def decimals(text: Bytes, starts: Places, ends: Places) -> tuple[Floats, NDArray[np.bool_]]:
     """The numbers that fields hold, NaN for an empty one, and which were read: plain decimals that fit a double."""
     values = np.full(len(starts), np.nan)
@@ -86,7 +86,7 @@ def decimals(text: Bytes, starts: Places, ends: Places) -> tuple[Floats, NDArray
     return values, read
 
 
-@njit(cache=True)
+@kernel
 def _magnitude(text: Bytes, at: int, end: int) -> tuple[float, bool]:
     """An unsigned decimal; NaN and False where this is none, or has too many digits."""
     number, digits, places, seen_point = 0, 0, 0, False
@@ -105,7 +105,7 @@ def _magnitude(text: Bytes, at: int, end: int) -> tuple[float, bool]:
     return number / _POWERS[places], True
 
 
-@njit(cache=True)
+@kernel
 def first_alike(text: Bytes, starts: Places, ends: Places) -> Places:
     """For each field the first row whose field has the same bytes (an open hash table, FNV-1a)."""
     rows = len(starts)
@@ -128,7 +128,7 @@ def first_alike(text: Bytes, starts: Places, ends: Places) -> Places:
     return first
 
 
-@njit(cache=True)
+@kernel
 def _alike(text: Bytes, start: int, length: int, other_start: int, other_end: int) -> bool:
     alike, k = length == other_end - other_start, 0
     while alike and k < length:
