@@ -2,23 +2,23 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
 
-from fusion.errors import InputError
 from fusion.messages import Floats
-from fusion.ranging.links import HARMONICS, LinkModel, harmonics, unknown_links
-from fusion.ranging.ranges import Ranges
+from fusion.ranging.link_fit import coherence_s, fit_links
+from fusion.ranging.links import LinkModel, growth, harmonics, unknown_links
+from fusion.ranging.ranges import Ranges, interpolated
 from fusion.ranging.rig import Rig, learn_rig
+from fusion.ranging.travel import directions
 
-OUTLIER_M: Final = 0.4
-MOST_INSTANTS: Final = 1500
-SHRINK: Final = 0.1
-"""Ridge on the pattern, per row: some seconds visit few bearings, and what they do not show is better thought small."""
+MOST_INSTANTS: Final = 400
+"""Enough for a fit: neighbouring ranges err alike."""
+LAG_S: Final = 0.05
+"""What is plausible of a lag (one sigma)."""
 LAGS_S: Final = np.arange(-0.2, 0.3001, 0.02)
-LEAST_SIGMA_M: Final = 0.03
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,6 +32,15 @@ class Calibration:
     """None where each tag moves on its own."""
 
 
+@dataclass(frozen=True, slots=True)
+class _Seen:
+    """What the ranges of some seconds should have been, had they a lag; (E, A, K) each."""
+
+    excess: Floats
+    distance: Floats
+    bearing: Floats
+
+
 def uncalibrated(ranges: Ranges) -> Calibration:
     """No truth: no biases, no lag, every tag on its own."""
     return Calibration(unknown_links(*ranges.range_m.shape[1:]))
@@ -40,8 +49,8 @@ def uncalibrated(ranges: Ranges) -> Calibration:
 def calibrate(ranges: Ranges, truth_t_s: Floats, truth: Floats) -> Calibration:
     """Learn from true positions.
 
-    The lag is where the link model leaves least, on a grid refined by a parabola. It is loosely determined: on
-    something that drives straight ahead, a lag and an antenna that sits further ahead look the same (docs/ranging.md).
+    The lag is the most plausible with its best link model, on a grid refined by a parabola. It is loosely determined:
+    on something that drives straight ahead, a lag and an antenna that sits further ahead look the same.
 
     Args:
         ranges: of the same seconds as the truth; others are left alone.
@@ -54,9 +63,12 @@ def calibrate(ranges: Ranges, truth_t_s: Floats, truth: Floats) -> Calibration:
     step = max(1, len(ranges.t_s) // MOST_INSTANTS)
     thinned = Ranges(ranges.anchors, ranges.t_s[::step], ranges.range_m[::step])
     rig = learn_rig(truth[:: max(1, len(truth) // MOST_INSTANTS)])
-    left = np.array([_learn(thinned, truth_t_s, truth, rig, lag)[1] for lag in LAGS_S])
-    lag_s = _lowest(LAGS_S, left)
-    return Calibration(_learn(thinned, truth_t_s, truth, rig, lag_s)[0], lag_s, rig)
+    seen = [_seen(thinned, truth_t_s, truth, rig, lag) for lag in LAGS_S]
+    costs = np.array([fit_links(s.excess, s.distance, s.bearing).cost for s in seen])
+    lag_s = _lowest(LAGS_S, costs + (LAGS_S / LAG_S) ** 2)
+    now = _seen(thinned, truth_t_s, truth, rig, lag_s)
+    links = fit_links(now.excess, now.distance, now.bearing).links
+    return Calibration(_with_coherence(links, ranges, _seen(ranges, truth_t_s, truth, rig, lag_s)), lag_s, rig)
 
 
 def _lowest(at: Floats, values: Floats) -> float:
@@ -68,51 +80,25 @@ def _lowest(at: Floats, values: Floats) -> float:
     return float(at[i] + np.clip(shift, -1, 1) * (at[1] - at[0]))
 
 
-def _learn(ranges: Ranges, truth_t_s: Floats, truth: Floats, rig: Rig | None, lag_s: float) -> tuple[LinkModel, float]:
-    """Least squares per tag for the link model at one lag; and the deviation of what it leaves."""
-    positions = interpolated(truth_t_s, truth, ranges.t_s + lag_s)  # (E, K, 3)
+def _seen(ranges: Ranges, truth_t_s: Floats, truth: Floats, rig: Rig | None, lag_s: float) -> _Seen:
+    at_s = ranges.t_s + lag_s
+    positions = interpolated(truth_t_s, truth, at_s)  # (E, K, 3)
     from_anchor = positions[:, None] - ranges.anchors[None, :, None]  # (E, A, K, 3)
-    excess = ranges.range_m - np.linalg.norm(from_anchor, axis=-1)
-    bearing = _bearings(from_anchor, positions, rig)
-    tags = [_learn_tag(excess[..., k], None if rig is None else bearing[..., k]) for k in range(positions.shape[1])]
-    residual = np.stack([left for _, _, left in tags], axis=-1)
-    bias, pattern = np.stack([b for b, _, _ in tags], axis=-1), np.stack([p for _, p, _ in tags])
-    left_m = float(np.nanstd(residual))
-    sigma = max(left_m, LEAST_SIGMA_M)
-    # Means over a second waver by 0.6 sigma in the seconds learnt from, and by more where nothing was learnt.
-    return LinkModel(bias, pattern, sigma, wander_m=sigma), left_m
-
-
-def _bearings(from_anchor: Floats, positions: Floats, rig: Rig | None) -> Floats:  # (E, A, K)
+    distance = np.linalg.norm(from_anchor, axis=-1)
     to_anchor = np.arctan2(-from_anchor[..., 1], -from_anchor[..., 0])
-    if rig is None:
-        return to_anchor
+    points = directions(truth_t_s, truth, at_s) if rig is None else _yaws(rig, positions)[:, None]
+    return _Seen(ranges.range_m - distance, distance, to_anchor - points[:, None])
+
+
+def _yaws(rig: Rig, positions: Floats) -> Floats:  # (E,)
     known = np.isfinite(positions).all(axis=(1, 2))
     yaws = np.full(len(positions), np.nan)
     yaws[known] = [rig.pose(tags)[1] for tags in positions[known]]
-    return np.asarray(to_anchor - yaws[:, None, None])
+    return yaws
 
 
-def _learn_tag(excess: Floats, bearing: Floats | None) -> tuple[Floats, Floats, Floats]:
-    """Biases (A,), pattern (2 · HARMONICS,) and what is left (E, A), NaN where it was not used."""
-    anchors = excess.shape[1]
-    if not np.isfinite(excess).any(axis=0).all():
-        raise InputError("a link has no range while there is truth", "ranges of every link", "calibrate for longer")
-    near = np.abs(excess - np.nanmedian(excess, axis=0)) < OUTLIER_M
-    if bearing is not None:
-        near &= np.isfinite(bearing)
-    _, link = np.nonzero(near)
-    waves = np.zeros((len(link), 2 * HARMONICS)) if bearing is None else harmonics(bearing[near])
-    rows = np.hstack([np.eye(anchors)[link], waves])
-    ridge = np.concatenate([np.full(anchors, 1e-6), np.full(2 * HARMONICS, SHRINK * len(link) + 1e-6)])
-    solved = np.linalg.solve(rows.T @ rows + np.diag(ridge), rows.T @ excess[near])
-    left = np.full(excess.shape, np.nan)
-    left[near] = excess[near] - rows @ solved
-    return np.asarray(solved[:anchors]), np.asarray(solved[anchors:]), left
-
-
-def interpolated(t_s: Floats, positions: Floats, at_s: Floats) -> Floats:
-    """Positions (T, K, 3) at other instants, (N, K, 3); NaN outside and where the truth is."""
-    flat = positions.reshape(len(t_s), -1)
-    columns = [np.interp(at_s, t_s, column, left=np.nan, right=np.nan) for column in flat.T]
-    return np.stack(columns, axis=-1).reshape(len(at_s), *positions.shape[1:])
+def _with_coherence(links: LinkModel, ranges: Ranges, seen: _Seen) -> LinkModel:
+    pattern = np.einsum("eakm,km->eak", np.nan_to_num(harmonics(seen.bearing)), links.pattern_m)
+    left = seen.excess - links.bias_m - growth(seen.distance) @ links.growth_m - pattern
+    step_s = float(ranges.t_s[-1] - ranges.t_s[0]) / max(len(ranges.t_s) - 1, 1)
+    return replace(links, coherence_s=coherence_s(left.reshape(len(left), -1), step_s))

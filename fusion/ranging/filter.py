@@ -11,10 +11,11 @@ from numpy.typing import NDArray
 from fusion.messages import Floats
 from fusion.ranging.links import LinkModel
 from fusion.ranging.rig import Rig, turn
+from fusion.ranging.travel import TRAVELS_M_S
 
 GATE: Final = 4.0
 """A range beyond so many deviations of its prediction is dropped: no line of sight, or a wrong echo."""
-ACCELERATION_DENSITY: Final = 1.0
+ACCELERATION_DENSITY: Final = 0.5
 """Of white acceleration, m²/s³; somebody who walks and turns."""
 TURN_DENSITY: Final = 1.0
 """Of white angular acceleration, rad²/s³."""
@@ -72,25 +73,26 @@ def predicted(state: RigState, rig: Rig, t_s: float) -> RigState:
 
 
 def updated(
-    state: RigState, rig: Rig, links: LinkModel, anchors: Floats, range_m: Floats
+    state: RigState, rig: Rig, links: LinkModel, anchors: Floats, range_m: Floats, since_s: Floats
 ) -> tuple[RigState, NDArray[np.bool_]]:
-    """Take the ranges (A, K) of one instant; tells which were believed, (A, K).
+    """Take the ranges (A, K) of one instant, so long after their links' last ones; tells which were believed, (A, K).
 
     With u the unit vector from anchor to tag: ∂r/∂p = u, ∂r/∂yaw = u · (dR/dyaw) offset. All believed ranges at once in
-    the form of information, P⁻¹ + Σ h h' / σ², which costs little however many links there are.
+    the form of information, P⁻¹ + Σ h h' / R, which costs little however many links there are.
     """
     from_anchor = rig.positions(state.middle, state.yaw_rad) - anchors[:, None]  # (A, K, 3)
     distance = np.linalg.norm(from_anchor, axis=-1)
     bearing = np.arctan2(-from_anchor[..., 1], -from_anchor[..., 0]) - state.yaw_rad
     rows = _jacobian(state, rig, from_anchor / distance[..., None])  # (A, K, 2 D + 2)
-    innovation = range_m - distance - links.expected_bias(bearing)
+    innovation = range_m - distance - links.expected_bias(bearing, distance)
     spread = np.sqrt(np.einsum("akm,mn,akn->ak", rows, state.covariance, rows) + links.sigma_m**2)
     believed = np.abs(innovation) < GATE * spread  # NaN compares false
     if not believed.any():
         return state, believed
-    h, weight = rows[believed], links.sigma_m**-2
-    covariance = np.linalg.inv(np.linalg.inv(state.covariance) + weight * h.T @ h)
-    mean = state.mean + weight * covariance @ h.T @ innovation[believed]
+    h = rows[believed]
+    weighted = h / links.variance_m2(since_s)[believed, None]
+    covariance = np.linalg.inv(np.linalg.inv(state.covariance) + weighted.T @ h)
+    mean = state.mean + covariance @ weighted.T @ innovation[believed]
     return replace(state, mean=mean, covariance=(covariance + covariance.T) / 2), believed
 
 
@@ -107,6 +109,17 @@ def _lever(state: RigState, rig: Rig) -> Floats:
     across = turn(state.yaw_rad + np.pi / 2)
     across[2, 2] = 0.0  # height does not change with the yaw
     return rig.offsets @ across.T
+
+
+def pointed(state: RigState) -> RigState:
+    """A lone tag points where it travels; while it hardly moves, where it pointed last."""
+    d = state.dimensions
+    vx, vy = state.mean[d : d + 2]
+    if np.hypot(vx, vy) < TRAVELS_M_S:
+        return state
+    mean = state.mean.copy()
+    mean[-2] = np.arctan2(vy, vx)
+    return replace(state, mean=mean)
 
 
 def tag_covariances(state: RigState, rig: Rig) -> Floats:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from fusion.errors import InputError
 from fusion.messages import Floats
 from fusion.ranging.calibration import Calibration
-from fusion.ranging.filter import RigState, predicted, started, tag_covariances, updated
+from fusion.ranging.filter import RigState, pointed, predicted, started, tag_covariances, updated
 from fusion.ranging.links import LinkModel
 from fusion.ranging.multilateration import solve_position
 from fusion.ranging.ranges import Ranges
@@ -120,6 +120,7 @@ class _Follower:
     def _step(self, t_s: float, range_m: Floats) -> NDArray[np.bool_]:
         """Take one instant's ranges; returns which were believed."""
         there = np.isfinite(range_m)
+        since_s = t_s - self._seen_s
         self._seen_s[there], self._latest_m[there] = t_s, range_m[there]
         if t_s - self._last_fit_s > PATIENCE_S and t_s - self._tried_s >= RETRY_S:
             self._tried_s = t_s
@@ -127,7 +128,9 @@ class _Follower:
         if self._state is None:
             return np.zeros(range_m.shape, dtype=bool)
         state = predicted(self._state, self._rig, t_s)
-        self._state, believed = updated(state, self._rig, self._links, self._ranges.anchors, range_m)
+        if not self._rig.has_direction:
+            state = pointed(state)
+        self._state, believed = updated(state, self._rig, self._links, self._ranges.anchors, range_m, since_s)
         if believed.any() or not there.any():
             self._last_fit_s = t_s
         self._fitted_s[believed.any(axis=1)] = t_s
@@ -143,14 +146,15 @@ class _Follower:
         return started(t_s, *self._rig.pose(tags), self._height_m)
 
     def _bound_m(self, state: RigState) -> Floats:
-        """3.5 √tr(P + W): P what the filter believes; W what the links' slow wandering does, which no filter sees.
+        """3.5 √tr(P + W): P what the filter believes; W what was never learnt of the links does, which no filter sees.
 
-        W = (U'U / w² + 1)⁻¹ with the unit vectors U from the anchors that fitted within the last second, one each:
+        W = w² (U'U + w²)⁻¹ with the unit vectors U from the anchors that fitted within the last second, one each:
         the tags of a rig are not taken to err independently.
         """
         sight = self._fitted_s >= state.t_s - SIGHT_MEMORY_S
         away = (state.middle - self._ranges.anchors[sight])[:, : state.dimensions]
         unit = away / np.linalg.norm(state.middle - self._ranges.anchors[sight], axis=1)[:, None]
-        wander = np.linalg.inv(unit.T @ unit / self._links.wander_m**2 + np.eye(state.dimensions))
+        lasting = self._links.wander_m**2
+        wander = lasting * np.linalg.inv(unit.T @ unit + lasting * np.eye(state.dimensions))
         believed = np.trace(tag_covariances(state, self._rig), axis1=1, axis2=2)
         return np.asarray(BOUND_SIGMAS * np.sqrt(believed + np.trace(wander)))

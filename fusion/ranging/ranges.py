@@ -18,10 +18,10 @@ class Ranges:
     t_s: Floats  # (E,) rising
     range_m: Floats  # (E, A, K), NaN where nothing was measured
 
-    def until(self, t_s: float) -> Ranges:
-        """The instants up to a time."""
-        early = self.t_s <= t_s
-        return replace(self, t_s=self.t_s[early], range_m=self.range_m[early])
+    def between(self, from_s: float, to_s: float) -> Ranges:
+        """The instants from a time to another."""
+        inside = (self.t_s >= from_s) & (self.t_s <= to_s)
+        return replace(self, t_s=self.t_s[inside], range_m=self.range_m[inside])
 
     def to_anchors(self, chosen: list[int]) -> Ranges:
         """The ranges to some of the anchors."""
@@ -40,3 +40,10 @@ def gathered(
     table = np.full((len(instants), len(anchors), tags), np.nan)
     table[row, anchor, tag] = range_m
     return Ranges(anchors, instants, table)
+
+
+def interpolated(t_s: Floats, positions: Floats, at_s: Floats) -> Floats:
+    """Positions (T, K, 3) at other instants, (N, K, 3); NaN outside and where the truth is."""
+    flat = positions.reshape(len(t_s), -1)
+    columns = [np.interp(at_s, t_s, column, left=np.nan, right=np.nan) for column in flat.T]
+    return np.stack(columns, axis=-1).reshape(len(at_s), *positions.shape[1:])

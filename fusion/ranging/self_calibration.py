@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
@@ -9,7 +10,7 @@ import numpy as np
 from fusion.errors import InputError
 from fusion.messages import Floats
 from fusion.ranging.calibration import Calibration
-from fusion.ranging.links import HARMONICS, LinkModel
+from fusion.ranging.links import unknown_links
 from fusion.ranging.ranges import Ranges
 
 WINDOW_S: Final = 0.1
@@ -36,7 +37,7 @@ def self_calibrate(ranges: Ranges, height_m: float) -> Calibration:
     medians = _medians(ranges)
     found = [_of_one_tag(ranges.anchors, medians[:, :, k], height_m) for k in range(medians.shape[2])]
     bias = np.stack(found, axis=-1)
-    return Calibration(LinkModel(bias, np.zeros((bias.shape[1], 2 * HARMONICS)), wander_m=LEFT_OPEN_M))
+    return Calibration(replace(unknown_links(*bias.shape), bias_m=bias, wander_m=LEFT_OPEN_M))
 
 
 def _medians(ranges: Ranges) -> Floats:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
@@ -15,12 +16,34 @@ from rich.table import Table
 
 from fusion.errors import InputError
 from fusion.messages import Floats
-from fusion.ranging.calibration import Calibration, calibrate, interpolated, uncalibrated
+from fusion.ranging.calibration import Calibration, calibrate, uncalibrated
 from fusion.ranging.locate import Track, require_solvable
 from fusion.ranging.locate import locate as locate_tags
-from fusion.ranging.ranges import Ranges, gathered
+from fusion.ranging.ranges import Ranges, gathered, interpolated
 from fusion.ranging.self_calibration import self_calibrate
 from fusion.recording.reader import RangeStream, Recording, read_recording
+
+
+@dataclass(frozen=True, slots=True)
+class Truth:
+    """Where the tags really were."""
+
+    t_s: Floats  # (T,)
+    positions: Floats  # (T, K, 3) m, in the order of the tags
+
+
+@dataclass(frozen=True, slots=True)
+class Seconds:
+    """Which part of the recording is learnt from."""
+
+    from_s: float
+    with_truth_s: float
+    alone_s: float
+
+    @property
+    def to_s(self) -> float:
+        """The end; the beginning where nothing is to be learnt."""
+        return self.from_s + max(self.with_truth_s, self.alone_s)
 
 
 def locate(
@@ -29,8 +52,12 @@ def locate(
     anchors: Annotated[
         str | None, typer.Option(metavar="A0,A2,A5", help="The anchors that may be used; all by default.")
     ] = None,
+    tags: Annotated[str | None, typer.Option(metavar="T0,T1", help="The tags to locate; all by default.")] = None,
     calibrate_s: Annotated[
         float, typer.Option("--calibrate", metavar="SECONDS", min=0, help="Learn the links from so much truth.")
+    ] = 0.0,
+    calibrate_from_s: Annotated[
+        float, typer.Option("--calibrate-from", metavar="SECONDS", min=0, help="Where that truth begins.")
     ] = 0.0,
     height: Annotated[
         float | None, typer.Option(metavar="M", help="The tags' height, where the anchors lie in one plane.")
@@ -42,16 +69,16 @@ def locate(
     """Locate radio tags from ranges to three or more anchors, causally, each position with a bound."""
     source = read_recording(recording)
     stream = _range_stream(source)
-    ranges = gathered(
-        stream.anchor_positions, len(stream.tags), stream.t_s, stream.anchor, stream.tag, stream.range_m
-    ).to_anchors(_chosen(stream, anchors))
+    names, ranges = _chosen_ranges(stream, anchors, tags)
     require_solvable(ranges.anchors, height)
-    learnt = _calibration(source, stream, ranges, (calibrate_s, self_calibrate_s), height)
+    seconds = Seconds(ranges.t_s[0] + calibrate_from_s, calibrate_s, self_calibrate_s)
+    truth = _truth(source, names)
+    learnt = _calibration(ranges, truth, seconds, height)
     with Progress(console=Console(stderr=True), transient=True) as progress:
         bar = progress.add_task(source.name, total=1.0)
         track = locate_tags(ranges, learnt, height, lambda share: progress.update(bar, completed=share))
-    _write(out, stream.tags, track)
-    _say(source, stream, track, learnt, max(calibrate_s, self_calibrate_s))
+    _write(out, names, track)
+    _say(source.name, names, track, truth, learnt, seconds)
     typer.echo(f"{out / 'position.csv'}: {int(np.isfinite(track.bound_m).sum())} positions")
 
 
@@ -61,44 +88,54 @@ def _range_stream(source: Recording) -> RangeStream:
     return source.range_streams[0]
 
 
-def _chosen(stream: RangeStream, names: str | None) -> list[int]:
-    wanted = list(stream.anchors) if names is None else [name.strip() for name in names.split(",")]
+def _chosen_ranges(stream: RangeStream, anchors: str | None, tags: str | None) -> tuple[tuple[str, ...], Ranges]:
+    """The chosen tags' names, and their ranges to the chosen anchors."""
+    whole = gathered(stream.anchor_positions, len(stream.tags), stream.t_s, stream.anchor, stream.tag, stream.range_m)
+    wanted = _chosen("tag", tuple(stream.tags), tags)
+    ranges = whole.to_anchors(_chosen("anchor", tuple(stream.anchors), anchors)).of_tags(wanted)
+    return tuple(stream.tags[k] for k in wanted), ranges
+
+
+def _chosen(kind: str, known: tuple[str, ...], names: str | None) -> list[int]:
+    wanted = known if names is None else tuple(name.strip() for name in names.split(","))
     for name in wanted:
-        if name not in stream.anchors:
-            raise InputError(f"no anchor is called '{name}'", f"some of {','.join(stream.anchors)}", "mend --anchors")
-    return [stream.anchors.index(name) for name in dict.fromkeys(wanted)]
+        if name not in known:
+            raise InputError(f"no {kind} is called '{name}'", f"some of {','.join(known)}", f"mend --{kind}s")
+    return [known.index(name) for name in dict.fromkeys(wanted)]
 
 
-def _calibration(
-    source: Recording, stream: RangeStream, ranges: Ranges, seconds: tuple[float, float], height: float | None
-) -> Calibration:
-    """What the first seconds teach: with truth, without, or nothing."""
-    with_truth_s, alone_s = seconds
-    if with_truth_s and alone_s:
+def _calibration(ranges: Ranges, truth: Truth, seconds: Seconds, height: float | None) -> Calibration:
+    """What some seconds teach: with truth, without, or nothing."""
+    if seconds.with_truth_s and seconds.alone_s:
         raise InputError("--calibrate and --self-calibrate exclude each other", "one of them", "leave one out")
-    if with_truth_s:
-        end_s = ranges.t_s[0] + with_truth_s
-        truth_t_s, truth = _truth(source, stream)
-        early = truth_t_s <= end_s
-        if not np.isfinite(truth[early]).all(axis=2).any(axis=0).all():
-            raise InputError(f"no truth in the first {with_truth_s:g} s", "some of every tag", "leave --calibrate out")
-        return calibrate(ranges.until(end_s), truth_t_s[early], truth[early])
-    if alone_s:
-        if height is None:
-            raise InputError("--self-calibrate works in the plane", "the tag's height", "give --height")
-        return self_calibrate(ranges.until(ranges.t_s[0] + alone_s), height)
-    return uncalibrated(ranges)
+    has_s = ranges.t_s[-1] - ranges.t_s[0]
+    if seconds.to_s > ranges.t_s[-1]:
+        what = f"the recording ends before the seconds to learn from do; it has {has_s:.0f} s"
+        raise InputError(what, "seconds that it holds, and some more to judge by", "learn from fewer")
+    if seconds.alone_s and height is None:
+        raise InputError("--self-calibrate works in the plane", "the tag's height", "give --height")
+    if seconds.alone_s:
+        return self_calibrate(ranges.between(seconds.from_s, seconds.to_s), height or 0.0)
+    return _with_truth(ranges, truth, seconds) if seconds.with_truth_s else uncalibrated(ranges)
 
 
-def _truth(source: Recording, stream: RangeStream) -> tuple[Floats, Floats]:
-    """Times (T,) and positions (T, K, 3) in the order of the tags; NaN where there is no truth."""
+def _with_truth(ranges: Ranges, truth: Truth, seconds: Seconds) -> Calibration:
+    inside = (truth.t_s >= seconds.from_s) & (truth.t_s <= seconds.to_s)
+    if not np.isfinite(truth.positions[inside]).all(axis=2).any(axis=0).all():
+        what = f"no truth from {seconds.from_s:g} to {seconds.to_s:g} s"
+        raise InputError(what, "some of every tag", "leave --calibrate out, or name the --tags that have truth")
+    return calibrate(ranges.between(seconds.from_s, seconds.to_s), truth.t_s[inside], truth.positions[inside])
+
+
+def _truth(source: Recording, tags: tuple[str, ...]) -> Truth:
+    """The tags' truth, NaN where there is none."""
     if source.truth is None:
-        return np.empty(0), np.empty((0, len(stream.tags), 3))
-    positions = np.full((len(source.truth.t_s), len(stream.tags), 3), np.nan)
-    for k, tag in enumerate(stream.tags):
+        return Truth(np.empty(0), np.empty((0, len(tags), 3)))
+    positions = np.full((len(source.truth.t_s), len(tags), 3), np.nan)
+    for k, tag in enumerate(tags):
         if tag in source.truth.joints:
             positions[:, k] = source.truth.positions[:, source.truth.joints.index(tag)]
-    return source.truth.t_s, positions
+    return Truth(source.truth.t_s, positions)
 
 
 def _write(folder: Path, tags: tuple[str, ...], track: Track) -> None:
@@ -121,20 +158,19 @@ def _lines(tags: tuple[str, ...], track: Track) -> Iterator[str]:
                 yield f"{t_s:.4f},{tag},{x:.4f},{y:.4f},{z:.4f},{bound:.4f},{count}\n"
 
 
-def _say(source: Recording, stream: RangeStream, track: Track, learnt: Calibration, learnt_for_s: float) -> None:
+def _say(name: str, tags: tuple[str, ...], track: Track, truth: Truth, learnt: Calibration, seconds: Seconds) -> None:
     """What was learnt, and how far off each tag was where there is truth."""
     console = Console(stderr=True, highlight=False)
     sigma_mm, lag_ms = learnt.links.sigma_m * 1e3, learnt.lag_s * 1e3
     together = "together, on one stiff thing" if learnt.rig else "each on its own"
     console.print(f"Range deviation {sigma_mm:.0f} mm, lag {lag_ms:.0f} ms, tags {together}.")
-    truth_t_s, truth = _truth(source, stream)
-    if not len(truth_t_s):
+    if not len(truth.t_s):
         return
-    off = track.positions - interpolated(truth_t_s, truth, track.t_s)
-    later = track.t_s > track.t_s[0] + learnt_for_s
-    for title, chosen in (("whole recording", np.isfinite(track.t_s)), ("after the calibration", later)):
-        if chosen.any() and (chosen is not later or learnt_for_s):
-            console.print(_table(f"{source.name}: {title}", stream.tags, off[chosen], track.bound_m[chosen]))
+    off = track.positions - interpolated(truth.t_s, truth.positions, track.t_s)
+    console.print(_table(f"{name}: whole recording", tags, off, track.bound_m))
+    other = (track.t_s < seconds.from_s) | (track.t_s > seconds.to_s)
+    if seconds.to_s > seconds.from_s and other.any():
+        console.print(_table(f"{name}: outside the seconds learnt from", tags, off[other], track.bound_m[other]))
 
 
 def _table(title: str, tags: tuple[str, ...], off: Floats, bound_m: Floats) -> Table:

@@ -44,14 +44,22 @@ def real(command, recordings, tmp_path_factory):
 
 @pytest.mark.recordings
 @pytest.mark.parametrize(
-    ("options", "rms_m"), [(("--anchors", "A0,A2,A5"), 0.07), ((), 0.064)], ids=["three anchors", "eight anchors"]
+    ("options", "rms_m"),
+    [
+        (("--anchors", "A0,A2,A5"), 0.06),
+        ((), 0.045),
+        (("--tags", "T0", "--anchors", "A0,A2,A5"), 0.086),
+        (("--tags", "T0"), 0.055),
+        (("--calibrate-from", 75), 0.045),
+    ],
+    ids=["three anchors", "eight anchors", "a lone tag, three", "a lone tag, eight", "other seconds to learn from"],
 )
 def test_after_30_s_of_truth_the_rest_is_located_and_the_bound_holds(real, options, rms_m):
     t_s, off, bound_m, output = real("--calibrate", 30, *options)
     rest = t_s > 30
     assert np.sqrt(np.mean(np.sum(off[rest, :2] ** 2, axis=1))) <= rms_m
     assert np.mean(np.linalg.norm(off, axis=1) <= bound_m) >= 0.99
-    assert "after the calibration" in output
+    assert "outside the seconds learnt from" in output
 
 
 @pytest.mark.recordings
@@ -66,6 +74,8 @@ def test_biases_learnt_without_truth_bring_most_of_what_truth_brings(real):
     ("options", "says"),
     [
         (("--anchors", "A0,A2,B7", "--height", 1), "no anchor is called 'B7'"),
+        (("--tags", "T0,T7", "--height", 1), "no tag is called 'T7'"),
+        (("--calibrate", 300, "--height", 1), "it has 135 s"),
         (("--anchors", "A0,A2", "--height", 1), "2 anchors are too few"),
         ((), "the anchors lie in one plane"),
         (("--height", 1, "--calibrate", 5, "--self-calibrate", 5), "exclude each other"),
