@@ -10,24 +10,17 @@ import numpy as np
 from fusion.align.alignment import SensorAlignment, reference_alignment
 from fusion.align.identity import Expected, PatientFinder, trunk_centre
 from fusion.align.learner import EVERY_S
-from fusion.align.mend import Mending, mend
+from fusion.align.mend import Mending, SideKeeper
 from fusion.align.watch import SensorWatch
 from fusion.errors import InputError
 from fusion.estimation import METHODS
-from fusion.kinematics.angles import arm_angles
-from fusion.kinematics.body_frame import trunk_frame
-from fusion.kinematics.lengths import LengthLearner
-from fusion.kinematics.mirror import mirror
+from fusion.kinematics.follower import ArmFollower
 from fusion.messages import (
     AlignedSample,
-    ArmLengths,
     FusedFrame,
-    JointAngles,
-    MirrorTarget,
     PipelineFrame,
     SensorQuality,
     SkeletonSample,
-    TrunkFrame,
 )
 from fusion.rewind import RewindingEstimator
 from fusion.skeleton import Side
@@ -36,8 +29,6 @@ ENOUGH_TO_REFER_S = 0.5
 """A sensor that has shown a body for this long may become the reference."""
 STALE_AFTER_S = 0.5
 """Without any sample for this long the body is not told any more."""
-SURE_FOR_S = 0.3
-"""A predicted body may judge a sample's sides while some sample was this recent."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,10 +59,10 @@ class Pipeline:
         self._reference = settings.reference
         self._sensors: dict[str, SensorWatch] = {}
         self._patient = PatientFinder()
+        self._sides = SideKeeper()
         self._body = RewindingEstimator(METHODS[settings.method])
-        self._lengths = LengthLearner()
+        self._arm = ArmFollower(settings.healthy_side)
         self._recent: FusedFrame | None = None
-        self._target: MirrorTarget | None = None
         self._latest: dict[str, AlignedSample] = {}
         self._newest_received_s = float("nan")
         self._next_learning_s = -np.inf
@@ -88,7 +79,7 @@ class Pipeline:
             watch.refusals["not aligned yet" if watch.fault is None else watch.fault.what] += 1
             return
         aligned = alignment.apply(sample, t_s - alignment.clock_offset_s)
-        mended, what = mend(aligned, self._predicted(aligned.t_s))
+        mended, what = self._sides.mend(aligned)
         refused = self._body.take(mended)
         self._account(watch, sample, what, refused)
         self._latest[sample.sensor] = mended
@@ -99,18 +90,17 @@ class Pipeline:
         """Everything that can be said at `t_s` from what has been taken so far."""
         self._learn(t_s)
         fused = self._fresh(t_s)
-        trunk = trunk_frame(fused.positions_in_room) if fused else None
-        healthy = self._angles(fused, trunk)
-        self._target = mirror(healthy, self._target) if healthy else None
+        samples = tuple(self._latest.values())
+        arm = self._arm.follow(fused, samples)
         return PipelineFrame(
             t_s=t_s,
             sensors=self.sensors(t_s),
-            samples=tuple(self._latest.values()),
+            samples=samples,
             fused=fused,
-            trunk=trunk,
-            lengths=self._lengths.lengths,
-            healthy=healthy,
-            target=self._target,
+            trunk=arm.trunk,
+            lengths=arm.lengths,
+            healthy=arm.healthy,
+            target=arm.target,
             newest_received_s=self._newest_received_s,
         )
 
@@ -118,15 +108,15 @@ class Pipeline:
         """A person's choice: this body of this sensor is the patient."""
         self._patient.follow(sensor, body)
         self._body.restart()
-        self._lengths = LengthLearner()
-        self._recent = self._target = None
+        self._sides = SideKeeper()
+        self._arm = ArmFollower(self._settings.healthy_side)
+        self._recent = None
 
     def treat(self, healthy_side: Side) -> None:
         """A session begins: this arm is the healthy one. What has been learnt of the sensors stays."""
         self._settings = replace(self._settings, healthy_side=healthy_side)
         self._patient.begin_session()
-        self._lengths = LengthLearner()
-        self._target = None
+        self._arm = ArmFollower(healthy_side)
 
     def fused_at(self, t_s: float) -> FusedFrame | None:
         """The body at `t_s`, however long nobody has seen it; None before the first sample."""
@@ -184,10 +174,6 @@ class Pipeline:
         in_sensor = (centre - alignment.translation_m) @ alignment.rotation_sensor_to_reference
         return Expected(in_sensor, max(t_s - alignment.clock_offset_s - newest_s, 0.0))
 
-    def _predicted(self, t_s: float) -> FusedFrame | None:
-        recent = self._recent
-        return recent if recent is not None and abs(t_s - recent.t_s) < SURE_FOR_S else None
-
     def _account(self, watch: SensorWatch, sample: SkeletonSample, what: Mending, refused: object) -> None:
         if refused is None:
             watch.refusals["came too late"] += 1
@@ -219,6 +205,7 @@ class Pipeline:
         if reference is not None and reference.fault is not None:
             self._reference = None
             self._body.restart()
+            self._sides = SideKeeper()
             for watch in self._sensors.values():
                 watch.forget()
         if self._reference is None:
@@ -236,12 +223,3 @@ class Pipeline:
             return None
         self._recent = fused
         return fused
-
-    def _angles(self, fused: FusedFrame | None, trunk: TrunkFrame | None) -> JointAngles | None:
-        """The healthy arm's angles, once its lengths are known."""
-        if fused is None:
-            return None
-        side = self._settings.healthy_side
-        self._lengths.update(fused, side)
-        lengths: ArmLengths | None = self._lengths.lengths
-        return arm_angles(fused, trunk, side, lengths) if trunk is not None and lengths is not None else None

@@ -1,31 +1,33 @@
-"""Left and right exchanged in a single sensor's frame: mended where that explains it, refused where it does not.
+"""Left and right exchanged by a sensor: put back where that is known, left out where the sensors contradict.
 
-A Kinect takes a back for a front, and from the side it may take either arm for the other ([Yao]; 15 % of walking frames
-at 90°). Its own word is worth nothing then, so each frame is held against the body as predicted.
+`facing` keeps the belief; here it is asked at every frame. A line that still points against another sensor's cannot be
+the same shoulders, so the sided joints of the one that comes second, or is less sure, are not used.
 """
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections import deque
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 import numpy as np
-from numpy.typing import NDArray
 
-from fusion.align.loops import middle_distance
-from fusion.messages import AlignedSample, FusedFrame
+from fusion.align.facing import FORGOTTEN_S, Facing, ShoulderLine, shoulder_line
+from fusion.messages import AlignedSample, Floats
 from fusion.skeleton import INDEX, SIDES_SWAPPED, TrackingState
 
 SIDED = np.nonzero(np.arange(len(SIDES_SWAPPED)) != SIDES_SWAPPED)[0]
-AS_NAMED, EXCHANGED = np.column_stack([SIDED, SIDED]), np.column_stack([SIDES_SWAPPED[SIDED], SIDED])
-"""(K, 2): which joint of a sample is held against which one of the prediction."""
-FEWEST = 4
-CLEARLY_BETTER = 0.6
-LEAST_ERROR_M = 0.10
-"""Exchanging sides is considered only when the joints are this far off as they are."""
-OPPOSED_COSINE = -0.3
-"""Shoulder lines further apart than about 107° cannot be the same shoulders."""
-SHOULDERS = INDEX["ShoulderLeft"], INDEX["ShoulderRight"]
+AGREEMENT_NATS = 1.5
+"""Lines of rightly named frames are opposed so much more seldom (factor e^1.5) than where one has exchanged names."""
+KEPT_NATS = 0.5
+"""What was decided stays until the odds are this much against it."""
+SURER_NATS = 1.0
+"""A frame this much surer of its names displaces the other sensor's."""
+BESIDE_S = 0.1
+"""Lines of two sensors within this time are held against one another."""
+STRIDE_S, LEAST_STRIDE_S = 0.5, 0.3
+"""Walking is seen over this long."""
+PELVIS = INDEX["SpineBase"]
 
 
 class Mending(StrEnum):
@@ -36,39 +38,105 @@ class Mending(StrEnum):
     SIDES_REFUSED = "left and right cannot be told, sided joints not used"
 
 
-def mend(sample: AlignedSample, predicted: FusedFrame | None) -> tuple[AlignedSample, Mending]:
-    """Put exchanged sides back, or leave the sided joints out, by the body predicted for that moment.
+@dataclass(frozen=True, slots=True)
+class _Decided:
+    """What was made of a sensor's latest frame."""
 
-    Args:
-        sample: a frame in the room.
-        predicted: the body at that time; None while it is not known well enough to judge by.
-    """
-    if predicted is None:
-        return sample, Mending.NONE
-    plain = _distance(sample, predicted, AS_NAMED)
-    if plain < LEAST_ERROR_M:
-        return sample, Mending.NONE
-    if _distance(sample, predicted, EXCHANGED) < CLEARLY_BETTER * plain:
-        return _swapped(sample), Mending.SWAPPED_BACK
-    if _opposed(sample, predicted):
+    t_s: float
+    facing_rad: float
+    """Of its line once mended."""
+    odds: float
+    """ln P(exchanged) − ln P(not)."""
+    used: bool
+
+
+class SideKeeper:
+    """Keeps left and right apart in every sensor's frames; takes them in the order they come."""
+
+    def __init__(self) -> None:
+        self._facing: Facing | None = None
+        self._decided: dict[str, _Decided] = {}
+        self._way: dict[str, deque[tuple[float, Floats]]] = {}
+
+    @property
+    def facing(self) -> Facing | None:
+        """What is believed now; None before the first frame."""
+        return self._facing
+
+    def mend(self, sample: AlignedSample) -> tuple[AlignedSample, Mending]:
+        """Put exchanged sides back, or leave the sided joints out.
+
+        Args:
+            sample: a frame of the patient, in the room.
+        """
+        line = shoulder_line(sample.positions_in_room, sample.state)
+        if line is None:
+            return self._as_before(sample)
+        lens_rad = _towards_lens(sample, line)
+        before = self._known(sample.t_s) or Facing.at_first(sample.t_s, lens_rad)
+        belief = self._walked(before.at(sample.t_s), sample, sample.t_s - before.t_s)
+        self._facing = belief.seen(sample.sensor, sample.t_s, line, lens_rad)
+        decided = self._decide(sample, line, self._facing.log_odds_exchanged(sample.sensor))
+        self._decided[sample.sensor] = decided
+        return _mended(sample, decided)
+
+    def _known(self, t_s: float) -> Facing | None:
+        """The belief, unless nobody was seen for too long."""
+        if self._facing is None or t_s - self._facing.t_s > FORGOTTEN_S:
+            self._decided.clear()
+            return None
+        return self._facing
+
+    def _as_before(self, sample: AlignedSample) -> tuple[AlignedSample, Mending]:
+        """A frame without a line keeps its sensor's latest decision."""
+        decided = self._decided.get(sample.sensor)
+        return (sample, Mending.NONE) if decided is None else _mended(sample, decided)
+
+    def _walked(self, belief: Facing, sample: AlignedSample, for_s: float) -> Facing:
+        """Take in where the sensor has seen the person go, for the time since anybody saw them."""
+        way = self._way.setdefault(sample.sensor, deque())
+        if not sample.state[PELVIS] or (way and sample.t_s <= way[-1][0]):
+            return belief
+        place = sample.positions_in_room[PELVIS][[0, 2]]
+        way.append((sample.t_s, place))
+        while way[0][0] < sample.t_s - STRIDE_S:
+            way.popleft()
+        took_s = sample.t_s - way[0][0]
+        return belief.walked((place - way[0][1]) / took_s, for_s) if took_s > LEAST_STRIDE_S else belief
+
+    def _decide(self, sample: AlignedSample, line: ShoulderLine, odds: float) -> _Decided:
+        """Exchanged or not, and whether the frame's sides are used."""
+        before = self._decided.get(sample.sensor)
+        kept = KEPT_NATS * np.sign(before.odds) if before else 0.0
+        others = self._beside(sample)
+        agree = sum(np.sign(np.cos(line.facing_rad - other.facing_rad)) for other in others.values())
+        odds = float(odds + kept - AGREEMENT_NATS * agree)
+        facing_rad = line.facing_rad + (np.pi if odds > 0 else 0.0)
+        opposed = {name: other for name, other in others.items() if np.cos(facing_rad - other.facing_rad) < 0}
+        surer = all(abs(odds) > abs(other.odds) + SURER_NATS for other in opposed.values())
+        if surer:
+            self._decided.update({name: replace(other, used=False) for name, other in opposed.items()})
+        return _Decided(sample.t_s, facing_rad, odds, surer)
+
+    def _beside(self, sample: AlignedSample) -> dict[str, _Decided]:
+        """The other sensors' latest frames that are used and near enough in time."""
+        return {
+            name: decided
+            for name, decided in self._decided.items()
+            if name != sample.sensor and decided.used and abs(sample.t_s - decided.t_s) < BESIDE_S
+        }
+
+
+def _mended(sample: AlignedSample, decided: _Decided) -> tuple[AlignedSample, Mending]:
+    if not decided.used:
         return _without_sides(sample), Mending.SIDES_REFUSED
-    return sample, Mending.NONE
+    return (_swapped(sample), Mending.SWAPPED_BACK) if decided.odds > 0 else (sample, Mending.NONE)
 
 
-def _distance(sample: AlignedSample, predicted: FusedFrame, joints: NDArray[np.int64]) -> float:
-    """Median distance of the sided joints to the prediction; 0 where too few are known to say anything."""
-    seen, expected = (sample.positions_in_room, sample.state), (predicted.positions_in_room, predicted.state)
-    apart_m, known = middle_distance(*seen, *expected, joints, TrackingState.TRACKED)
-    return apart_m if known >= FEWEST else 0.0
-
-
-def _opposed(sample: AlignedSample, predicted: FusedFrame) -> bool:
-    """Whether the shoulder lines point against one another in the horizontal."""
-    left, right = SHOULDERS
-    ours = (sample.positions_in_room[right] - sample.positions_in_room[left])[[0, 2]]
-    theirs = (predicted.positions_in_room[right] - predicted.positions_in_room[left])[[0, 2]]
-    norm = float(np.linalg.norm(ours) * np.linalg.norm(theirs))
-    return bool(float(ours @ theirs) < OPPOSED_COSINE * norm)
+def _towards_lens(sample: AlignedSample, line: ShoulderLine) -> float:
+    """Direction from the person to the lens, in the horizontal."""
+    x, _, z = sample.lens_in_room - line.middle_in_room
+    return float(np.arctan2(x, z))
 
 
 def _swapped(sample: AlignedSample) -> AlignedSample:

@@ -1,0 +1,192 @@
+"""Which way the patient faces, and which sensor has taken left for right: one belief, kept over time.
+
+A Kinect mostly takes a back for a front and then names left and right the wrong way round [Yao; methods §7]; it may
+also keep the names right for a while. So a shoulder line says the facing ψ only up to half a turn, and the sensor's own
+word does not help. What does: a person turns slowly, a sensor that exchanged its names did so in one frame and goes on
+with it, all sensors see one person, and people who walk briskly walk forwards.
+
+The belief is a discrete Bayes filter [Thrun, Burgard, Fox 2005, Probabilistic Robotics, §4.1] over ψ in 72 directions,
+with the probability, for each sensor and each ψ, that its names are exchanged. Sensors are taken as independent once ψ
+is known, so the cost is linear in their number. ψ is measured in the room's horizontal, 0 along z, positive towards x.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Final
+
+import numpy as np
+
+from fusion.align.facing_loops import looked, spread
+from fusion.messages import Floats, States
+from fusion.skeleton import INDEX
+
+DIRECTIONS: Final = 72
+DIRECTION_RAD: Final[Floats] = np.linspace(-np.pi, np.pi, DIRECTIONS, endpoint=False)  # (N,)
+TURN_RAD_SQRT_S: Final = np.radians(100.0)
+"""Standard deviation of a person's turn in one second; it grows with the root of time."""
+LOOKS_PER_S: Final = 7.5
+"""Errors of a sensor last: its frames of one second are worth so many that err independently."""
+SURE_AHEAD, SURE_ASIDE = 5.5, 1.5
+"""Concentration (von Mises) of a shoulder line about the truth: towards or away from the lens, and side-on."""
+MISLED: Final = 0.07
+"""Share of shoulder lines that say nothing."""
+NARROWEST_M, USUAL_M = 0.05, 0.20
+"""A shoulder line shorter than the first says nothing, from the second on it counts fully."""
+EXCHANGED_AHEAD, EXCHANGED_BEHIND = 0.02, 0.52
+"""How often names are exchanged that a sensor gives to somebody who faces it, and to a back."""
+EXCHANGES_PER_S: Final = 0.01
+EXCHANGES_SIDE_ON_PER_S: Final = 2.0
+"""How often a sensor thinks again, and how often when it sees the person from the side."""
+JUMP_RAD, JUMP_RAD_S, JUMP_SPREAD_RAD = np.radians(30.0), np.radians(300.0), np.radians(6.0)
+"""A line that turns by more than the first plus the second times the time between has been thought of anew."""
+HALF_TURN_RAD: Final = np.radians(110.0)
+"""A jump further than this can only be an exchange."""
+THOUGHT_ANEW: Final = 0.9
+GAP_S: Final = 0.5
+"""A sensor that has not seen the person for this long may name anew."""
+FORGOTTEN_S: Final = 3.0
+"""After so long without a frame it begins anew."""
+SURE_AT_FIRST: Final = 1.5
+"""Facing the first sensor is e³ times as likely as turning one's back on it."""
+WALKING_M_S: Final = 0.5, 0.9
+"""From the first speed on walking begins to tell the facing; from the second on it tells all it can."""
+WALK_LOOKS_PER_S: Final = 7.0
+FORWARD_SHARE, SURE_WALK = 0.85, 3.0
+"""How often brisk walking is forward walking, and how well it then keeps to the facing."""
+
+
+@dataclass(frozen=True, slots=True)
+class ShoulderLine:
+    """Which way a skeleton's shoulders face, by its own names."""
+
+    facing_rad: float
+    weight: float
+    """0 for a line too short to say anything, 1 for a full one."""
+    middle_in_room: Floats  # (3,)
+
+
+@dataclass(frozen=True, slots=True)
+class _Named:
+    """What is known of one sensor's names."""
+
+    exchanged: Floats  # (N,) probability, given ψ
+    t_s: float
+    facing_rad: float
+    """Of its latest line."""
+
+
+@dataclass(frozen=True, slots=True)
+class Facing:
+    """The belief at an instant."""
+
+    share: Floats  # (N,) probability of each direction
+    sensors: Mapping[str, _Named]
+    t_s: float
+
+    @staticmethod
+    def at_first(t_s: float, towards_lens_rad: float) -> Facing:
+        """Before anything is known: most likely the person faces the sensor that sees them first [Yao]."""
+        share = np.exp(SURE_AT_FIRST * np.cos(DIRECTION_RAD - towards_lens_rad))
+        return Facing(share / share.sum(), {}, t_s)
+
+    @property
+    def facing_rad(self) -> float:
+        """Mean direction."""
+        return float(np.angle(self.share @ np.exp(1j * DIRECTION_RAD)))
+
+    def log_odds_exchanged(self, sensor: str) -> float:
+        """The odds that its names are exchanged, ln P − ln (1 − P); 0 for an unknown sensor."""
+        named = self.sensors.get(sensor)
+        if named is None:
+            return 0.0
+        exchanged = min(max(float(self.share @ named.exchanged), 1e-9), 1.0 - 1e-9)
+        return float(np.log(exchanged / (1.0 - exchanged)))
+
+    def at(self, t_s: float) -> Facing:
+        """The belief later on, when the person may have turned; times before the latest change nothing."""
+        dt_s = t_s - self.t_s
+        if dt_s <= 0.0:
+            return self
+        joint = [self.share, *(self.share * named.exchanged for named in self.sensors.values())]
+        share, *exchanged = spread(np.array(joint), TURN_RAD_SQRT_S * np.sqrt(dt_s) * DIRECTIONS / (2 * np.pi))
+        sensors = {
+            name: replace(named, exchanged=part / share)
+            for (name, named), part in zip(self.sensors.items(), exchanged, strict=True)
+        }
+        return Facing(share, sensors, t_s)
+
+    def seen(self, sensor: str, t_s: float, line: ShoulderLine, towards_lens_rad: float) -> Facing:
+        """The belief after a sensor's frame; call `at` first.
+
+        Args:
+            sensor: who saw it.
+            t_s: when.
+            line: what it says.
+            towards_lens_rad: direction from the person to its lens.
+        """
+        ahead = np.cos(DIRECTION_RAD - towards_lens_rad)
+        named = self.sensors.get(sensor)
+        before = _usual(ahead) if named is None else _named_anew(named, t_s, line, ahead)
+        apart_s = np.inf if named is None else t_s - named.t_s
+        looks = line.weight * LOOKS_PER_S * min(max(apart_s, 0.0), 1.0 / LOOKS_PER_S)
+        concentration = SURE_ASIDE + (SURE_AHEAD - SURE_ASIDE) * np.abs(ahead)
+        share, exchanged = looked(self.share, before, DIRECTION_RAD, line.facing_rad, concentration, MISLED, looks)
+        return replace(self, share=share, sensors={**self.sensors, sensor: _Named(exchanged, t_s, line.facing_rad)})
+
+    def walked(self, velocity_m_s: Floats, for_s: float) -> Facing:
+        """The belief after the person went with this horizontal velocity (2,) (x, z) for so long."""
+        slow, brisk = WALKING_M_S
+        looks = WALK_LOOKS_PER_S * for_s * min(max((float(np.hypot(*velocity_m_s)) - slow) / (brisk - slow), 0.0), 1.0)
+        if looks <= 0.0:
+            return self
+        off = np.cos(DIRECTION_RAD - np.arctan2(velocity_m_s[0], velocity_m_s[1]))
+        forward = np.exp(SURE_WALK * (off - 1.0)) * np.sqrt(SURE_WALK / (2 * np.pi))
+        share = self.share * (FORWARD_SHARE * forward + (1.0 - FORWARD_SHARE) / (2 * np.pi)) ** looks
+        return replace(self, share=share / share.sum())
+
+
+def shoulder_line(positions_in_room: Floats, state: States) -> ShoulderLine | None:
+    """Facing by the shoulders (25, 3), by the hips where a shoulder is lost; None where both are.
+
+    Facing = up × (right − left), in the horizontal; only the direction of the line counts.
+    """
+    for left, right, usual in (("ShoulderLeft", "ShoulderRight", 1.0), ("HipLeft", "HipRight", 0.5)):
+        a, b = INDEX[left], INDEX[right]
+        if state[a] and state[b]:
+            x, _, z = positions_in_room[b] - positions_in_room[a]
+            length_m = np.hypot(x, z) / usual
+            weight = min(max((length_m - NARROWEST_M) / (USUAL_M - NARROWEST_M), 0.0), 1.0)
+            middle = 0.5 * (positions_in_room[a] + positions_in_room[b])
+            return ShoulderLine(float(np.arctan2(z, -x)), float(weight), middle)
+    return None
+
+
+def _usual(ahead: Floats) -> Floats:
+    """How often names are exchanged, (N,), by the cosine between facing and lens."""
+    behind: Floats = 1.0 / (1.0 + np.exp(4.0 * (ahead + 0.2)))
+    return EXCHANGED_AHEAD + (EXCHANGED_BEHIND - EXCHANGED_AHEAD) * behind
+
+
+def _named_anew(named: _Named, t_s: float, line: ShoulderLine, ahead: Floats) -> Floats:
+    """P(exchanged) given ψ (N,) once a sensor had another frame in which to name the sides anew."""
+    usual, apart_s = _usual(ahead), t_s - named.t_s
+    if apart_s > GAP_S:
+        return 0.5 * (named.exchanged + usual)
+    jump = abs(_wrapped(line.facing_rad - named.facing_rad))
+    by_itself = max(apart_s, 0.0) * (EXCHANGES_PER_S + EXCHANGES_SIDE_ON_PER_S * np.exp(-((ahead / 0.4) ** 2)))
+    anew = by_itself + THOUGHT_ANEW * _step(jump - JUMP_RAD - JUMP_RAD_S * max(apart_s, 0.0))
+    certain = THOUGHT_ANEW * _step(jump - HALF_TURN_RAD)
+    to_right = np.clip(2.0 * anew * (1.0 - usual), certain, 0.95)
+    to_exchanged = np.clip(2.0 * anew * usual, certain, 0.95)
+    found: Floats = named.exchanged * (1.0 - to_right) + (1.0 - named.exchanged) * to_exchanged
+    return found
+
+
+def _step(over_rad: float) -> float:
+    return float(1.0 / (1.0 + np.exp(-over_rad / JUMP_SPREAD_RAD)))
+
+
+def _wrapped(angle_rad: float) -> float:
+    return float((angle_rad + np.pi) % (2 * np.pi) - np.pi)
