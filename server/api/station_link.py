@@ -22,7 +22,8 @@ HEARTBEAT_S = 0.1
 """The station holds after 0.25 s without one (SR-9)."""
 ANSWER_WITHIN_S = 2.0
 SEND_TRIES, SEND_PAUSE_S = 25, 0.02
-START_WITHIN_S = 30.0
+START_WITHIN_S = 120.0
+"""The first start after an update compiles for half a minute, on a slow machine longer."""
 STATION = ("-m", "server.station")
 
 

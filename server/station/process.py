@@ -18,6 +18,7 @@ from pathlib import Path
 from fusion.errors import MachineError
 from fusion.pipeline import PipelineSettings
 from fusion.skeleton import Side
+from fusion.warm import warm
 from server.channels import StationChannels
 from server.config import StationStart
 from server.station import pacemaker
@@ -52,6 +53,7 @@ def run(start: StationStart) -> None:
         stack.enter_context(only_one(data))
         stack.enter_context(logging_to(data / "logs" / "realtime.log"))
         config = start.station
+        warm(config.method)  # before the sockets: nothing piles up meanwhile, and no tick waits for a compiler
         source = stack.enter_context(UdpSource(config.sensors))
         # Until a session says whose arm is healthy; the demonstration's patient has a healthy right one.
         side = Side.RIGHT if start.demo else Side.LEFT
