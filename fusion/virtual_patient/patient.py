@@ -22,6 +22,7 @@ from fusion.virtual_patient.anatomy import (
 )
 from fusion.virtual_patient.movement import Movement
 from fusion.virtual_patient.reaching import clipped, pose_for_hand
+from fusion.virtual_patient.stroll import Stroll
 from fusion.virtual_patient.sway import Sway
 
 
@@ -64,6 +65,7 @@ class VirtualPatient:
         ability: (0, 1]; lower is slower and leans more.
         posture: sitting or standing.
         anatomy: lengths.
+        stroll_m: how far the whole body shifts about its place (one standard deviation per axis); 0 = it does not.
     """
 
     def __init__(
@@ -74,6 +76,7 @@ class VirtualPatient:
         ability: float = 1.0,
         posture: Posture = Posture.SITTING,
         anatomy: Anatomy | None = None,
+        stroll_m: float = 0.0,
     ) -> None:
         self.healthy_side, self.posture = healthy_side, posture
         self.anatomy = anatomy or Anatomy()
@@ -81,6 +84,7 @@ class VirtualPatient:
         self._ability = ability
         self._rng = np.random.default_rng(seed)
         self._sway = Sway(_SWAY_RAD, self._rng)
+        self._stroll = Stroll(stroll_m, seed)
         self._legs = legs_from_pelvis(self.anatomy, posture)
         self._rest = resting(posture)
         self._movement = Movement(self._rest.as_array())
@@ -97,7 +101,7 @@ class VirtualPatient:
     def trunk(self) -> TrunkFrame:
         """The trunk in the world now."""
         rotation = self._trunk_rotation()
-        pelvis = pelvis_height_m(self.anatomy, self.posture) * UP
+        pelvis = pelvis_height_m(self.anatomy, self.posture) * UP + self._stroll.at(self.t_s)
         return TrunkFrame(pelvis + self.anatomy.spine_m * (rotation @ UP), rotation)
 
     def step(self, dt_s: float, goal: ReachGoal | None = None, affected: ArmPose | None = None) -> Floats:

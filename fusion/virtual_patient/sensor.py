@@ -34,6 +34,9 @@ DEMO: Final = NoiseLevel((0.0, 0.0, 0.0), (0.012, 0.012, 0.012), 0.7, 0.006, (0.
 TABLE1: Final = NoiseLevel((-0.0154, -0.0361, 0.0160), (0.0456, 0.0387, 0.0541), 0.9, 0.0, (0.2, 0.15, 0.2))
 """[Du2016, Table 1]: one Kinect against Vicon."""
 
+TABLE1_CENTRED: Final = NoiseLevel((0.0, 0.0, 0.0), TABLE1.std_m, TABLE1.correlation, 0.0, TABLE1.interval_m)
+"""The same with the means taken off, as the paper does before it fuses."""
+
 
 @dataclass(frozen=True, slots=True)
 class SensorPose:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from math import pi
 from pathlib import Path
 from typing import Final
 
 import numpy as np
 
+from fusion.inertial.simulation import SensorErrors
 from fusion.messages import Floats, SkeletonSample
 from fusion.recording.reader import Recording, SkeletonStream, TruthStream
 from fusion.skeleton import JOINTS, Side
@@ -16,6 +18,8 @@ from fusion.virtual_patient.anatomy import ArmPose
 from fusion.virtual_patient.patient import PoseGoal, VirtualPatient
 from fusion.virtual_patient.reaching import RANGES_RAD
 from fusion.virtual_patient.sensor import DEMO, NoiseLevel, SensorPose, VirtualSensor
+from fusion.virtual_patient.tag import TagErrors, tag_ranges
+from fusion.virtual_patient.worn import SegmentPoses, segment_poses, worn_streams
 
 _STEP_S: Final = 0.01
 _GOAL_S: Final = (1.5, 4.0)
@@ -62,23 +66,59 @@ def virtual_recording(
     clock_offset_s: float = 0.137,
     apart_rad: float = 1.5,
     ability: float = 1.0,
+    stroll_m: float = 0.0,
+    worn: SensorErrors | None = None,
+    tag: TagErrors | None = None,
 ) -> Recording:
-    """A patient who exercises before two sensors; truth at 100 Hz in the first sensor's frame and clock."""
-    patient = VirtualPatient(healthy_side, seed, ability=ability)
+    """A patient who exercises before two sensors; truth at 100 Hz in the first sensor's frame and clock.
+
+    Args:
+        seed: of everything random.
+        length_s: how long.
+        healthy_side: the arm that exercises.
+        noise: of both sensors.
+        clock_offset_s: the second sensor's clock minus the first one's.
+        apart_rad: angle between the sensors.
+        ability: (0, 1]; lower is slower.
+        stroll_m: how far the patient shifts about.
+        worn: errors of inertial sensors on upper back, upper arm, forearm and hand; None = none are worn.
+        tag: errors of a radio tag's ranges; None = there is no tag.
+    """
+    patient = VirtualPatient(healthy_side, seed, ability=ability, stroll_m=stroll_m)
     sensors = sensors_for(healthy_side, seed, noise, clock_offset_s, apart_rad)
     seen: dict[str, list[SkeletonSample]] = {sensor.name: [] for sensor in sensors}
-    times, truth = [], []
+    moments: list[_Moment] = []
     for positions in _lived(patient, length_s, seed):
-        times.append(patient.t_s)
-        truth.append(sensors[0].pose.to_sensor(positions))
+        poses = segment_poses(positions, patient.trunk, patient.healthy_pose, healthy_side)
+        moments.append(_Moment(patient.t_s, positions, poses))
         for sensor in sensors:
             sample = sensor.see(positions, patient.t_s)
             if sample is not None:
                 seen[sensor.name].append(sample)
     streams = tuple(SkeletonStream(s.name, s is sensors[0], "sensor", tuple(seen[s.name])) for s in sensors)
-    stream = TruthStream(np.array(times), JOINTS, np.array(truth), sensors[0].name)
-    about = "A virtual patient before two virtual sensors"
-    return Recording(f"virtual-{seed}", about, healthy_side, streams, stream, (), Path(f"virtual-{seed}"))
+    t_s, lived = np.array([moment.t_s for moment in moments]), np.array([moment.positions for moment in moments])
+    poses_lived = [moment.poses for moment in moments]
+    backs = np.array([pose.rotations[0][:, 2] for pose in poses_lived])
+    return Recording(
+        f"virtual-{seed}",
+        "A virtual patient before two virtual sensors",
+        healthy_side,
+        streams,
+        TruthStream(t_s, JOINTS, sensors[0].pose.to_sensor(lived), sensors[0].name),
+        (),
+        Path(f"virtual-{seed}"),
+        imu_streams=() if worn is None else worn_streams(poses_lived, t_s, healthy_side, worn, seed),
+        range_streams=() if tag is None else (tag_ranges(lived, backs, t_s, tag, seed),),
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class _Moment:
+    """The patient at one instant, in the world."""
+
+    t_s: float
+    positions: Floats  # (25, 3) m
+    poses: SegmentPoses
 
 
 def _lived(patient: VirtualPatient, length_s: float, seed: int) -> Iterator[Floats]:
