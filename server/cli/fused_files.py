@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import json
 import os
 import platform
@@ -17,10 +16,13 @@ from fusion.errors import InputError
 from fusion.kinematics.angles import swing_from_direction, wrapped
 from fusion.messages import JointAngles, MirrorTarget
 from fusion.offline import FusedRecording, SensorReport
-from fusion.skeleton import JOINTS
+from fusion.recording.lines import lines_of
+from fusion.skeleton import JOINTS, Side
 from server import __version__
 
 FORMAT = "mirrorlimb-fused/1"
+JOINT_COLUMNS = ("t_s", "joint", "x_m", "y_m", "z_m", "bound_m", "state")
+JOINT_PLACES = (4, 4, 4, 4, 4, 0)
 ANGLE_COLUMNS = (
     "t_s",
     "side",
@@ -36,6 +38,8 @@ ANGLE_COLUMNS = (
     "twist_bound_rad",
     "elbow_bound_rad",
 )
+ANGLE_PLACES = (4, *[5] * 7, 0, *[5] * 3)
+"""Decimal places of the columns that hold numbers."""
 
 
 def make_folder(folder: Path) -> None:
@@ -67,40 +71,49 @@ def write_fused(fused: FusedRecording, folder: Path) -> None:
         InputError: the files cannot be written.
     """
     try:
-        (folder / "fused.csv").write_text("".join(_joint_lines(fused)), encoding="utf-8")
-        with (folder / "angles.csv").open("w", newline="", encoding="utf-8") as file:
-            writer = csv.writer(file, lineterminator="\n")
-            writer.writerow(ANGLE_COLUMNS)
-            writer.writerows(_angle_rows(fused))
+        (folder / "fused.csv").write_bytes(_head(JOINT_COLUMNS) + _joint_lines(fused))
+        (folder / "angles.csv").write_bytes(_head(ANGLE_COLUMNS) + _angle_lines(fused))
         report = json.dumps(_report(fused), indent=1, allow_nan=False)
         (folder / "report.json").write_text(report + "\n", encoding="utf-8")
     except OSError as error:
         raise _not_written(folder, error) from error
 
 
-def _joint_lines(fused: FusedRecording) -> Iterator[str]:
+def _head(columns: tuple[str, ...]) -> bytes:
+    return f"{','.join(columns)}\n".encode()
+
+
+def _joint_lines(fused: FusedRecording) -> bytes:
     """A line per instant and joint; joints never seen are left out."""
-    yield "t_s,joint,x_m,y_m,z_m,bound_m,state\n"
-    seen = np.nonzero(np.isfinite(fused.positions).all(axis=(0, 2)))[0].tolist()
-    rows = zip(fused.t_s.tolist(), fused.positions.tolist(), fused.bound_m.tolist(), fused.state.tolist(), strict=True)
-    for t_s, positions, bound_m, state in rows:
-        for j in seen:
-            x, y, z = positions[j]
-            yield f"{t_s:.4f},{JOINTS[j]},{x:.4f},{y:.4f},{z:.4f},{bound_m[j]:.4f},{state[j]}\n"
+    seen = np.nonzero(np.isfinite(fused.positions).all(axis=(0, 2)))[0]
+    instants, joints = len(fused.t_s), len(seen)
+    numbers = np.empty((instants, joints, 6))
+    numbers[..., 0] = fused.t_s[:, None]
+    numbers[..., 1:4] = fused.positions[:, seen]
+    numbers[..., 4] = fused.bound_m[:, seen]
+    numbers[..., 5] = fused.state[:, seen]
+    return lines_of(numbers.reshape(-1, 6), JOINT_PLACES, JOINTS, np.tile(seen, instants))
 
 
-def _angle_rows(fused: FusedRecording) -> Iterator[list[str]]:
+def _angle_lines(fused: FusedRecording) -> bytes:
     """The healthy arm and the mirrored target at every instant that has them."""
+    rows = list(_angle_rows(fused))
+    numbers = np.array([numbers for _, numbers in rows]).reshape(-1, len(ANGLE_PLACES))
+    sides = [side.value for side in Side]
+    return lines_of(numbers, ANGLE_PLACES, sides, np.array([sides.index(side) for side, _ in rows], dtype=np.int64))
+
+
+def _angle_rows(fused: FusedRecording) -> Iterator[tuple[str, list[float]]]:
     for t_s, healthy, target in zip(fused.t_s.tolist(), fused.healthy, fused.target, strict=True):
         if healthy is not None:
-            yield _row(t_s, healthy.side.value, _healthy_values(healthy), healthy)
+            yield healthy.side.value, [t_s, *_healthy_values(healthy), *_worth(healthy)]
         if target is not None:
-            yield _row(t_s, target.side.value, _target_values(target), target)
+            yield target.side.value, [t_s, *_target_values(target), *_worth(target)]
 
 
-def _row(t_s: float, side: str, angles: list[float], told: JointAngles | MirrorTarget) -> list[str]:
-    bounds = [told.swing_bound_rad, told.twist_bound_rad, told.elbow_bound_rad]
-    return [f"{t_s:.4f}", side, *map(_number, angles), str(int(told.valid)), *map(_number, bounds)]
+def _worth(told: JointAngles | MirrorTarget) -> list[float]:
+    """Whether the angles count, and their bounds."""
+    return [told.valid, told.swing_bound_rad, told.twist_bound_rad, told.elbow_bound_rad]
 
 
 def _healthy_values(healthy: JointAngles) -> list[float]:
@@ -122,10 +135,6 @@ def _target_values(target: MirrorTarget) -> list[float]:
     beta = float(np.arctan2(up, -outward))
     axial = wrapped(target.twist_rad - plane)
     return [plane, elevation, axial, target.elbow_rad, np.pi - elevation, beta, target.elbow_rad]
-
-
-def _number(value: float) -> str:
-    return f"{value:.5f}"
 
 
 def _report(fused: FusedRecording) -> dict[str, object]:
