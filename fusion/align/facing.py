@@ -13,28 +13,29 @@ is known, so the cost is linear in their number. ψ is measured in the room's ho
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from math import atan2, exp, hypot, log, pi, sqrt
 from typing import Final
 
 import numpy as np
 
-from fusion.align.facing_loops import looked, spread
+from fusion.align.facing_loops import headed, looked, renamed, spread
 from fusion.messages import Floats, States
 from fusion.skeleton import INDEX
 
 DIRECTIONS: Final = 72
 DIRECTION_RAD: Final[Floats] = np.linspace(-np.pi, np.pi, DIRECTIONS, endpoint=False)  # (N,)
+UNKNOWN: Final[Floats] = np.full(DIRECTIONS, 0.5)
 TURN_RAD_SQRT_S: Final = np.radians(100.0)
 """Standard deviation of a person's turn in one second; it grows with the root of time."""
 LOOKS_PER_S: Final = 7.5
 """Errors of a sensor last: its frames of one second are worth so many that err independently."""
-SURE_AHEAD, SURE_ASIDE = 5.5, 1.5
-"""Concentration (von Mises) of a shoulder line about the truth: towards or away from the lens, and side-on."""
-MISLED: Final = 0.07
-"""Share of shoulder lines that say nothing."""
+ERRORS: Final = (5.5, 1.5, 0.07)
+"""Concentration (von Mises) of a shoulder line about the truth, towards or away from the lens and side-on, and the
+share of lines that say nothing."""
 NARROWEST_M, USUAL_M = 0.05, 0.20
 """A shoulder line shorter than the first says nothing, from the second on it counts fully."""
-EXCHANGED_AHEAD, EXCHANGED_BEHIND = 0.02, 0.52
+USUAL: Final = (0.02, 0.52)
 """How often names are exchanged that a sensor gives to somebody who faces it, and to a back."""
 EXCHANGES_PER_S: Final = 0.01
 EXCHANGES_SIDE_ON_PER_S: Final = 2.0
@@ -102,17 +103,17 @@ class Facing:
         if named is None:
             return 0.0
         exchanged = min(max(float(self.share @ named.exchanged), 1e-9), 1.0 - 1e-9)
-        return float(np.log(exchanged / (1.0 - exchanged)))
+        return log(exchanged / (1.0 - exchanged))
 
     def at(self, t_s: float) -> Facing:
         """The belief later on, when the person may have turned; times before the latest change nothing."""
         dt_s = t_s - self.t_s
         if dt_s <= 0.0:
             return self
-        joint = [self.share, *(self.share * named.exchanged for named in self.sensors.values())]
-        share, *exchanged = spread(np.array(joint), TURN_RAD_SQRT_S * np.sqrt(dt_s) * DIRECTIONS / (2 * np.pi))
+        joint = np.array([self.share, *(self.share * named.exchanged for named in self.sensors.values())])
+        share, *exchanged = spread(joint, TURN_RAD_SQRT_S * sqrt(dt_s) * DIRECTIONS / (2 * pi))
         sensors = {
-            name: replace(named, exchanged=part / share)
+            name: _Named(part / share, named.t_s, named.facing_rad)
             for (name, named), part in zip(self.sensors.items(), exchanged, strict=True)
         }
         return Facing(share, sensors, t_s)
@@ -126,25 +127,21 @@ class Facing:
             line: what it says.
             towards_lens_rad: direction from the person to its lens.
         """
-        ahead = np.cos(DIRECTION_RAD - towards_lens_rad)
         named = self.sensors.get(sensor)
-        before = _usual(ahead) if named is None else _named_anew(named, t_s, line, ahead)
-        apart_s = np.inf if named is None else t_s - named.t_s
-        looks = line.weight * LOOKS_PER_S * min(max(apart_s, 0.0), 1.0 / LOOKS_PER_S)
-        concentration = SURE_ASIDE + (SURE_AHEAD - SURE_ASIDE) * np.abs(ahead)
-        share, exchanged = looked(self.share, before, DIRECTION_RAD, line.facing_rad, concentration, MISLED, looks)
-        return replace(self, share=share, sensors={**self.sensors, sensor: _Named(exchanged, t_s, line.facing_rad)})
+        apart_s = max(t_s - named.t_s, 0.0) if named else 1.0 / LOOKS_PER_S
+        before = _named_anew(named, apart_s, line, towards_lens_rad)
+        looks = line.weight * min(LOOKS_PER_S * apart_s, 1.0)
+        share, exchanged = looked(self.share, before, line.facing_rad, towards_lens_rad, ERRORS, looks)
+        return Facing(share, {**self.sensors, sensor: _Named(exchanged, t_s, line.facing_rad)}, self.t_s)
 
-    def walked(self, velocity_m_s: Floats, for_s: float) -> Facing:
-        """The belief after the person went with this horizontal velocity (2,) (x, z) for so long."""
+    def walked(self, velocity_m_s: tuple[float, float], for_s: float) -> Facing:
+        """The belief after the person went with this horizontal velocity (x, z) for so long."""
         slow, brisk = WALKING_M_S
-        looks = WALK_LOOKS_PER_S * for_s * min(max((float(np.hypot(*velocity_m_s)) - slow) / (brisk - slow), 0.0), 1.0)
+        looks = WALK_LOOKS_PER_S * for_s * min(max((hypot(*velocity_m_s) - slow) / (brisk - slow), 0.0), 1.0)
         if looks <= 0.0:
             return self
-        off = np.cos(DIRECTION_RAD - np.arctan2(velocity_m_s[0], velocity_m_s[1]))
-        forward = np.exp(SURE_WALK * (off - 1.0)) * np.sqrt(SURE_WALK / (2 * np.pi))
-        share = self.share * (FORWARD_SHARE * forward + (1.0 - FORWARD_SHARE) / (2 * np.pi)) ** looks
-        return replace(self, share=share / share.sum())
+        heading_rad = atan2(*velocity_m_s)
+        return Facing(headed(self.share, heading_rad, SURE_WALK, FORWARD_SHARE, looks), self.sensors, self.t_s)
 
 
 def shoulder_line(positions_in_room: Floats, state: States) -> ShoulderLine | None:
@@ -155,38 +152,28 @@ def shoulder_line(positions_in_room: Floats, state: States) -> ShoulderLine | No
     for left, right, usual in (("ShoulderLeft", "ShoulderRight", 1.0), ("HipLeft", "HipRight", 0.5)):
         a, b = INDEX[left], INDEX[right]
         if state[a] and state[b]:
-            x, _, z = positions_in_room[b] - positions_in_room[a]
-            length_m = np.hypot(x, z) / usual
-            weight = min(max((length_m - NARROWEST_M) / (USUAL_M - NARROWEST_M), 0.0), 1.0)
             middle = 0.5 * (positions_in_room[a] + positions_in_room[b])
-            return ShoulderLine(float(np.arctan2(z, -x)), float(weight), middle)
+            x, _, z = (positions_in_room[b] - positions_in_room[a]).tolist()
+            weight = min(max((hypot(x, z) / usual - NARROWEST_M) / (USUAL_M - NARROWEST_M), 0.0), 1.0)
+            return ShoulderLine(atan2(z, -x), weight, middle)
     return None
 
 
-def _usual(ahead: Floats) -> Floats:
-    """How often names are exchanged, (N,), by the cosine between facing and lens."""
-    behind: Floats = 1.0 / (1.0 + np.exp(4.0 * (ahead + 0.2)))
-    return EXCHANGED_AHEAD + (EXCHANGED_BEHIND - EXCHANGED_AHEAD) * behind
-
-
-def _named_anew(named: _Named, t_s: float, line: ShoulderLine, ahead: Floats) -> Floats:
+def _named_anew(named: _Named | None, apart_s: float, line: ShoulderLine, towards_lens_rad: float) -> Floats:
     """P(exchanged) given ψ (N,) once a sensor had another frame in which to name the sides anew."""
-    usual, apart_s = _usual(ahead), t_s - named.t_s
-    if apart_s > GAP_S:
-        return 0.5 * (named.exchanged + usual)
-    jump = abs(_wrapped(line.facing_rad - named.facing_rad))
-    by_itself = max(apart_s, 0.0) * (EXCHANGES_PER_S + EXCHANGES_SIDE_ON_PER_S * np.exp(-((ahead / 0.4) ** 2)))
-    anew = by_itself + THOUGHT_ANEW * _step(jump - JUMP_RAD - JUMP_RAD_S * max(apart_s, 0.0))
-    certain = THOUGHT_ANEW * _step(jump - HALF_TURN_RAD)
-    to_right = np.clip(2.0 * anew * (1.0 - usual), certain, 0.95)
-    to_exchanged = np.clip(2.0 * anew * usual, certain, 0.95)
-    found: Floats = named.exchanged * (1.0 - to_right) + (1.0 - named.exchanged) * to_exchanged
-    return found
+    if named is None or apart_s > GAP_S:
+        usual = renamed(UNKNOWN, towards_lens_rad, USUAL, (0.5, 0.0), 0.0)
+        return usual if named is None else 0.5 * (named.exchanged + usual)
+    jump_rad = abs(_wrapped(line.facing_rad - named.facing_rad))
+    by_jump = THOUGHT_ANEW * _step(jump_rad - JUMP_RAD - JUMP_RAD_S * apart_s)
+    certain = THOUGHT_ANEW * _step(jump_rad - HALF_TURN_RAD)
+    often = by_jump + apart_s * EXCHANGES_PER_S, apart_s * EXCHANGES_SIDE_ON_PER_S
+    return renamed(named.exchanged, towards_lens_rad, USUAL, often, certain)
 
 
 def _step(over_rad: float) -> float:
-    return float(1.0 / (1.0 + np.exp(-over_rad / JUMP_SPREAD_RAD)))
+    return 1.0 / (1.0 + exp(-over_rad / JUMP_SPREAD_RAD))
 
 
 def _wrapped(angle_rad: float) -> float:
-    return float((angle_rad + np.pi) % (2 * np.pi) - np.pi)
+    return (angle_rad + pi) % (2 * pi) - pi

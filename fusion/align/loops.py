@@ -192,24 +192,6 @@ def middle_seen(positions: Floats, state: States, joints: NDArray[np.int64]) -> 
 
 
 @kernel
-def middle_distance(
-    positions: Floats, state: States, others: Floats, other_state: States, joints: NDArray[np.int64], tracked: int
-) -> tuple[float, int]:
-    """Upper median distance of joints (J, 3) that are seen to others' that are `tracked`, and how many there are.
-
-    `joints` (K, 2): which joint is held against which of the others.
-    """
-    squares = np.empty(len(joints))
-    count = 0
-    for k in range(len(joints)):
-        j, other = joints[k]
-        if state[j] > 0 and other_state[other] == tracked:
-            squares[count] = _apart(positions[j], others[other])
-            count += 1
-    return (np.sort(squares[:count])[count // 2] if count else 0.0), count
-
-
-@kernel
 def _dot(a: Floats, b: Floats) -> float:
     product: float = a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
     return product

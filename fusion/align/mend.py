@@ -9,11 +9,12 @@ from __future__ import annotations
 from collections import deque
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from math import atan2, copysign, cos, pi
 
 import numpy as np
 
 from fusion.align.facing import FORGOTTEN_S, Facing, ShoulderLine, shoulder_line
-from fusion.messages import AlignedSample, Floats
+from fusion.messages import AlignedSample
 from fusion.skeleton import INDEX, SIDES_SWAPPED, TrackingState
 
 SIDED = np.nonzero(np.arange(len(SIDES_SWAPPED)) != SIDES_SWAPPED)[0]
@@ -56,7 +57,7 @@ class SideKeeper:
     def __init__(self) -> None:
         self._facing: Facing | None = None
         self._decided: dict[str, _Decided] = {}
-        self._way: dict[str, deque[tuple[float, Floats]]] = {}
+        self._way: dict[str, deque[tuple[float, float, float]]] = {}
 
     @property
     def facing(self) -> Facing | None:
@@ -97,22 +98,25 @@ class SideKeeper:
         way = self._way.setdefault(sample.sensor, deque())
         if not sample.state[PELVIS] or (way and sample.t_s <= way[-1][0]):
             return belief
-        place = sample.positions_in_room[PELVIS][[0, 2]]
-        way.append((sample.t_s, place))
+        x, _, z = sample.positions_in_room[PELVIS].tolist()
+        way.append((sample.t_s, x, z))
         while way[0][0] < sample.t_s - STRIDE_S:
             way.popleft()
-        took_s = sample.t_s - way[0][0]
-        return belief.walked((place - way[0][1]) / took_s, for_s) if took_s > LEAST_STRIDE_S else belief
+        from_s, from_x, from_z = way[0]
+        took_s = sample.t_s - from_s
+        if took_s < LEAST_STRIDE_S:
+            return belief
+        return belief.walked(((x - from_x) / took_s, (z - from_z) / took_s), for_s)
 
     def _decide(self, sample: AlignedSample, line: ShoulderLine, odds: float) -> _Decided:
         """Exchanged or not, and whether the frame's sides are used."""
         before = self._decided.get(sample.sensor)
-        kept = KEPT_NATS * np.sign(before.odds) if before else 0.0
+        kept = copysign(KEPT_NATS, before.odds) if before else 0.0
         others = self._beside(sample)
-        agree = sum(np.sign(np.cos(line.facing_rad - other.facing_rad)) for other in others.values())
-        odds = float(odds + kept - AGREEMENT_NATS * agree)
-        facing_rad = line.facing_rad + (np.pi if odds > 0 else 0.0)
-        opposed = {name: other for name, other in others.items() if np.cos(facing_rad - other.facing_rad) < 0}
+        agree = sum(copysign(1.0, cos(line.facing_rad - other.facing_rad)) for other in others.values())
+        odds += kept - AGREEMENT_NATS * agree
+        facing_rad = line.facing_rad + (pi if odds > 0 else 0.0)
+        opposed = {name: other for name, other in others.items() if cos(facing_rad - other.facing_rad) < 0}
         surer = all(abs(odds) > abs(other.odds) + SURER_NATS for other in opposed.values())
         if surer:
             self._decided.update({name: replace(other, used=False) for name, other in opposed.items()})
@@ -135,8 +139,8 @@ def _mended(sample: AlignedSample, decided: _Decided) -> tuple[AlignedSample, Me
 
 def _towards_lens(sample: AlignedSample, line: ShoulderLine) -> float:
     """Direction from the person to the lens, in the horizontal."""
-    x, _, z = sample.lens_in_room - line.middle_in_room
-    return float(np.arctan2(x, z))
+    x, _, z = (sample.lens_in_room - line.middle_in_room).tolist()
+    return atan2(x, z)
 
 
 def _swapped(sample: AlignedSample) -> AlignedSample:

@@ -26,7 +26,7 @@ def after(looks, turn_rad=0.0):
     for sensor, dt_s, facing_rad, lens_rad, weight in looks:
         belief = belief.at(belief.t_s + dt_s)
         belief = belief.seen(sensor, belief.t_s, line(facing_rad + turn_rad, weight), lens_rad + turn_rad)
-        belief = belief.walked(np.array([np.sin(lens_rad + turn_rad), np.cos(lens_rad + turn_rad)]), dt_s)
+        belief = belief.walked((np.sin(lens_rad + turn_rad), np.cos(lens_rad + turn_rad)), dt_s)
     return belief
 
 
@@ -71,5 +71,5 @@ def test_time_without_looks_makes_it_forget():
 
 def test_brisk_walking_tells_the_facing_and_slow_steps_do_not():
     belief = Facing.at_first(0.0, 0.0)
-    assert belief.walked(np.array([0.0, -0.4]), 1.0) is belief
-    assert np.cos(belief.walked(np.array([0.0, -1.2]), 2.0).facing_rad) < 0
+    assert belief.walked((0.0, -0.4), 1.0) is belief
+    assert np.cos(belief.walked((0.0, -1.2), 2.0).facing_rad) < 0
