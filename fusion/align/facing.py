@@ -19,7 +19,7 @@ from typing import Final
 
 import numpy as np
 
-from fusion.align.facing_loops import headed, looked, renamed, spread
+from fusion.align.facing_loops import looked, renamed, spread
 from fusion.messages import Floats, States
 from fusion.skeleton import INDEX
 
@@ -140,8 +140,10 @@ class Facing:
         looks = WALK_LOOKS_PER_S * for_s * min(max((hypot(*velocity_m_s) - slow) / (brisk - slow), 0.0), 1.0)
         if looks <= 0.0:
             return self
-        heading_rad = atan2(*velocity_m_s)
-        return Facing(headed(self.share, heading_rad, SURE_WALK, FORWARD_SHARE, looks), self.sensors, self.t_s)
+        off = np.cos(DIRECTION_RAD - atan2(*velocity_m_s))
+        forward = sqrt(SURE_WALK / (2 * pi)) * np.exp(SURE_WALK * (off - 1.0))
+        share = self.share * (FORWARD_SHARE * forward + (1.0 - FORWARD_SHARE) / (2 * pi)) ** looks
+        return Facing(share / share.sum(), self.sensors, self.t_s)
 
 
 def shoulder_line(positions_in_room: Floats, state: States) -> ShoulderLine | None:

@@ -107,19 +107,3 @@ def looked(
         new_share[n] = share[n] * both
     new_share /= new_share.sum()
     return new_share, new_exchanged
-
-
-@kernel
-def headed(share: Floats, heading: float, kappa: float, forward: float, looks: float) -> Floats:
-    """Bayes' rule for a heading: the new share of each direction.
-
-    p(heading | ψ) = forward √(κ/2π) exp(κ (cos(ψ − heading) − 1)) + (1 − forward) / 2π, to the power of `looks`.
-    """
-    count = len(share)
-    found = np.empty_like(share)
-    for n in range(count):
-        cosine = np.cos(2.0 * np.pi * n / count - np.pi - heading)
-        ahead = forward * np.sqrt(kappa / (2 * np.pi)) * np.exp(kappa * (cosine - 1.0))
-        found[n] = share[n] * (ahead + (1.0 - forward) / (2 * np.pi)) ** looks
-    found /= found.sum()
-    return found
