@@ -7,11 +7,11 @@ from __future__ import annotations
 
 from collections import deque
 from dataclasses import dataclass
+from math import ceil, log2
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.fft import irfft, next_fast_len, rfft
-from scipy.signal import find_peaks
 
 from fusion.align.loops import moved_between
 from fusion.align.track import BodyTrack
@@ -19,10 +19,12 @@ from fusion.messages import Floats
 from fusion.skeleton import TrackingState
 
 Singles = NDArray[np.float32]
+Spectra = NDArray[np.complexfloating[Any, Any]]
 
 GRID_HZ = 60.0
 SPEED_SPAN_S = 0.05
 """Half the span over which speeds are taken; short, for a sharp peak."""
+PEAKS_APART_S = 0.15
 FASTEST_M_S = 3.0
 """Faster than this is a wandering joint, not a limb in therapy; speeds are cut here."""
 LEAST_COMMON_SHARE = 0.5
@@ -58,13 +60,21 @@ def offset_candidates(
     correlation, lags = _correlation(ours, ours_known, theirs, theirs_known)
     offsets = lags / GRID_HZ + sensor.t_s[0] - reference.t_s[0]
     correlation = np.where(np.abs(offsets) <= longest_s, correlation, -1.0)
-    peaks, _ = find_peaks(np.concatenate([[-1.0], correlation, [-1.0]]), distance=int(0.15 * GRID_HZ))
-    best = sorted(peaks - 1, key=lambda k: -correlation[k])[:count]
     return tuple(
-        OffsetCandidate(float(offsets[k] + _vertex(correlation, int(k)) / GRID_HZ), float(correlation[k]))
-        for k in best
-        if correlation[k] > 0
+        OffsetCandidate(float(offsets[k] + _vertex(correlation, k) / GRID_HZ), float(correlation[k]))
+        for k in _peaks(correlation, count)
     )
+
+
+def _peaks(correlation: Floats, count: int) -> list[int]:
+    """Where it is positive and highest, best first; of two maxima too close together only the higher one."""
+    around = np.concatenate([[-1.0], correlation, [-1.0]])
+    maxima = np.flatnonzero((correlation > 0) & (correlation > around[:-2]) & (correlation >= around[2:]))
+    found: list[int] = []
+    for k in maxima[np.argsort(-correlation[maxima])].tolist():
+        if len(found) < count and all(abs(k - other) >= PEAKS_APART_S * GRID_HZ for other in found):
+            found.append(k)
+    return found
 
 
 def _speeds(track: BodyTrack) -> tuple[Singles, Singles]:
@@ -85,12 +95,12 @@ def _speeds(track: BodyTrack) -> tuple[Singles, Singles]:
 def _correlation(a: Singles, a_known: Singles, b: Singles, b_known: Singles) -> tuple[Floats, Floats]:
     """Normalised correlation over every lag of b behind a (in grid steps, ascending), all joints summed."""
     lengths = a.shape[1], b.shape[1]
-    size = next_fast_len(sum(lengths), real=True)
-    ours, our_energy, ours_known = (rfft(x, size) for x in (a, a**2, a_known))
-    theirs, their_energy, theirs_known = (rfft(x, size) for x in (b, b**2, b_known))
+    size = _fast_length(sum(lengths))
+    ours, our_energy, ours_known = (np.fft.rfft(x, size) for x in (a, a**2, a_known))
+    theirs, their_energy, theirs_known = (np.fft.rfft(x, size) for x in (b, b**2, b_known))
 
-    def lagged(x: NDArray[np.complex64], y: NDArray[np.complex64]) -> Floats:
-        summed = irfft(np.einsum("jf,jf->f", np.conj(x), y), size).astype(np.float64)
+    def lagged(x: Spectra, y: Spectra) -> Floats:
+        summed: Floats = np.fft.irfft(np.einsum("jf,jf->f", np.conj(x), y), size).astype(np.float64)
         return np.concatenate([summed[size - lengths[0] + 1 :], summed[: lengths[1]]])
 
     common = lagged(ours_known, theirs_known)
@@ -98,6 +108,11 @@ def _correlation(a: Singles, a_known: Singles, b: Singles, b_known: Singles) -> 
     share = np.clip(common / max(float(common.max(initial=0.0)), 1.0), 0, 1)
     correlation = np.where(share > LEAST_COMMON_SHARE, lagged(ours, theirs) / energy * np.sqrt(share), -1.0)
     return correlation, np.arange(-lengths[0] + 1.0, lengths[1])
+
+
+def _fast_length(least: int) -> int:
+    """A length not much above `least` that a Fourier transform is quick at: a power of two times 1, 3, 5, 9 or 15."""
+    return min(odd << max(0, ceil(log2(least / odd))) for odd in (1, 3, 5, 9, 15))
 
 
 def _vertex(values: Floats, k: int) -> float:
