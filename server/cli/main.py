@@ -4,34 +4,48 @@ from __future__ import annotations
 
 import os
 import sys
+from importlib import import_module
+from typing import Any
 
 import typer
 from rich.console import Console
+from typer.core import TyperGroup
 
 from db.errors import DatabaseError
 from fusion.errors import MirrorlimbError
 from server import __version__
-from server.cli.arm import arm
-from server.cli.bench import bench
-from server.cli.convert import convert
-from server.cli.doctor import doctor
-from server.cli.evaluate import evaluate
-from server.cli.fuse import fuse
-from server.cli.locate import locate
-from server.cli.replay import replay
-from server.cli.serve import serve
 
 UNUSABLE = 2
 """Exit code for input or a machine that cannot be used."""
 
+COMMANDS = ("serve", "replay", "fuse", "evaluate", "locate", "arm", "bench", "convert", "doctor")
+"""Each is a function of its name in a module of its name."""
+
+
+class _Commands(TyperGroup):
+    """Loads a command's module when it is asked for: what one needs takes longer to load than another one runs.
+
+    Contexts and commands are click's, which typer carries inside or stands on, depending on its version.
+    """
+
+    def list_commands(self, ctx: Any) -> list[str]:
+        return list(COMMANDS)
+
+    def get_command(self, ctx: Any, cmd_name: str) -> Any:
+        if cmd_name not in COMMANDS:
+            return None
+        alone = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
+        alone.command(cmd_name)(getattr(import_module(f"server.cli.{cmd_name}"), cmd_name))
+        return typer.main.get_command(alone)
+
+
 app = typer.Typer(
+    cls=_Commands,
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
     help="Mirror therapy with several sensors and an exoskeleton. Research software, not a medical device.",
 )
-for command in (serve, replay, fuse, evaluate, locate, arm, bench, convert, doctor):
-    app.command(command.__name__)(command)
 
 
 def _show_version(wanted: bool) -> None:
