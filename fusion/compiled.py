@@ -51,10 +51,42 @@ def _kept(function: Callable[..., Any]) -> Any:
     except RuntimeError:  # no folder can be written
         return None
     folder = Path(getfile(function)).parent
-    stamp = _content(ESTIMATION) + _content(folder)
-    file: Any = IndexDataCacheFile
-    kept._cache_file = file(kept.cache_path, kept._impl.filename_base, stamp)
+    kept._cache_file = _Files(kept.cache_path, kept._impl.filename_base, _content(ESTIMATION) + _content(folder))
     return kept
+
+
+class _Files(IndexDataCacheFile):
+    """What is kept of one kernel, in files named by what they were compiled from; others of that kernel are removed.
+
+    So two versions never read what the other writes at the same moment. What names a type that is gone, a caller's in
+    another folder, cannot be read at all; it is compiled anew.
+    """
+
+    def __init__(self, folder: str, kernel_name: str, stamp: bytes) -> None:
+        begin: Any = super().__init__
+        begin(folder, f"{kernel_name}-{sha256(stamp).hexdigest()[:12]}", stamp)
+        self._base: Any = super()
+        name, _, line_and_python = kernel_name.rpartition("-")
+        self._others = f"{name}-*.{line_and_python.partition('.')[2]}-*.nb?"
+
+    def load(self, key: object) -> object:
+        try:
+            return self._base.load(key)
+        except (AttributeError, ImportError):
+            return None
+
+    def _load_index(self) -> Any:
+        try:
+            return self._base._load_index()
+        except (AttributeError, ImportError):
+            return {}
+
+    def _save_index(self, overloads: object) -> None:
+        self._base._save_index(overloads)
+        ours = Path(self._index_name).stem
+        for file in Path(self._cache_path).glob(self._others):
+            if not file.name.startswith(ours):
+                file.unlink(missing_ok=True)
 
 
 @cache

@@ -13,7 +13,7 @@ import numpy as np
 from fusion.estimation.average import Average, Samples
 from fusion.estimation.measurement import read, sight
 from fusion.messages import AlignedSample, Floats
-from fusion.skeleton import INDEX, TrackingState
+from fusion.skeleton import INDEX, JOINT_COUNT, TrackingState
 
 INFERRED_SHARE: Final = 0.5
 LEAST_WEIGHT: Final = 0.05
@@ -50,7 +50,7 @@ def _facing_in_room(samples: Samples) -> Floats:
 
 def _facing_seen(sample: AlignedSample) -> Floats:
     """(3,) y × (right − left) of the first pair that is tracked; zeros where there is none."""
-    measured = read(sight(sample))
+    measured = read(sight(sample, JOINT_COUNT))
     for left, right in PAIRS:
         if measured.tracked[left] and measured.tracked[right]:
             return _unit(np.cross(UP, measured.positions[right] - measured.positions[left]))

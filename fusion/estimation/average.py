@@ -78,7 +78,7 @@ def _fresh(samples: Samples, sample: AlignedSample, now_s: float) -> Samples:
 def _joined(state: AverageState, samples: Samples, weights: Floats) -> AverageState:
     """The mean of K samples under `weights` (K, J) where they give the joint; held where none does."""
     positions = np.stack([s.positions_in_room for s in samples])  # (K, J, 3)
-    given = np.stack([read(sight(s)).given for s in samples])  # (K, J)
+    given = np.stack([read(sight(s, JOINT_COUNT)).given for s in samples])  # (K, J)
     shares = np.where(given, weights, 0.0)
     total = (shares[..., None] * np.where(given[..., None], positions, 0.0)).sum(axis=0)
     count: Floats = given.sum(axis=0)

@@ -124,7 +124,7 @@ def cut(state: EsmfState, positions: Floats, measured_m2: Floats, joints: Flags)
 
 def _take(state: EsmfState, sample: AlignedSample) -> tuple[EsmfState, tuple[Refusal, ...]]:
     state = predict(state, sample.t_s)
-    seen = sight(sample)
+    seen = sight(sample, JOINT_COUNT)
     measured = read(seen)
     late_s = max(state.t_s - sample.t_s, 0.0)
     speed = np.clip(np.nan_to_num(state.centre[:, V]), -SPEED_MAX, SPEED_MAX)

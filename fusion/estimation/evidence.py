@@ -8,9 +8,10 @@ from fusion.compiled import Record, Records, kernel
 from fusion.estimation import trust
 from fusion.estimation.error_box import half_width_in_room
 from fusion.estimation.gated_filter import carried_on
-from fusion.estimation.measurement import Flags, Measurement, Sight
+from fusion.estimation.measurement import Heard
 from fusion.estimation.motion_set import SPEED_MAX
-from fusion.estimation.vectors import Vector, distance, plus, row, widened
+from fusion.estimation.vectors import Vector, distance, plus, widened
+from fusion.messages import Floats
 
 BELIEVED_STD_M: Final = 0.035
 DOUBTED_STD_M: Final = 0.2
@@ -39,31 +40,30 @@ class Evidence(NamedTuple):
 
 @kernel
 def weigh(
-    seen: Sight,
-    measured: Measurement,
-    wandering: Flags,
-    j: int,
+    heard: Heard,
+    lens: Vector,
+    rotation_sensor_to_room: Floats,
     joint: Record,
     words: Records,
     own: int,
     t_s: float,
     late_s: float,
 ) -> Evidence:
-    """Weigh what a sample gives of joint `j` against its sensor's past, the other sensors and the predicted joint.
+    """Weigh what a sensor at `lens` says of a joint against its own past, the other sensors and the predicted joint.
 
     `words` (K,) is what is remembered of the joint, sensor by sensor; `own` is this sensor. The point is moved by what
     the learnt bias leaves, the set is cut by what was measured.
     """
     word = words[own]
-    believed = trust.judge(word, t_s, measured.tracked[j], wandering[j])
-    position = carried_on(joint, row(measured.positions, j), late_s)
+    believed = trust.judge(word, t_s, heard.tracked, heard.wandering)
+    position = carried_on(joint, heard.position, late_s)
     unbiased = plus(position, word.offset_m, -1.0)
     surely = trust.another_is_sure(words, own, t_s)
     agrees = surely and distance(unbiased, joint.position) < AGREES_WITHIN_M
     std_m = BELIEVED_STD_M if believed else AGREEING_STD_M if agrees else DOUBTED_STD_M
     box_m = BELIEVED_HALF_WIDTH_M if believed else DOUBTED_HALF_WIDTH_M
-    from_lens = plus(row(measured.positions, j), seen.lens_in_room, -1.0)
-    half_width = half_width_in_room(from_lens, seen.rotation_sensor_to_room, box_m)
+    from_lens = plus(heard.position, lens, -1.0)
+    half_width = half_width_in_room(from_lens, rotation_sensor_to_room, box_m)
     return Evidence(
         position=position,
         unbiased=unbiased,

@@ -68,7 +68,7 @@ class Kalman(Estimator):
 def _updated(state: KalmanState, sample: AlignedSample) -> tuple[KalmanState, tuple[Refusal, ...]]:
     at_s = float(sample.t_s)
     t_s = max(at_s, state.t_s)
-    joints, codes = _take(state.joints, sight(sample), state.t_s, t_s, t_s - at_s)
+    joints, codes = _take(state.joints, sight(sample, len(state.joints)), state.t_s, t_s, t_s - at_s)
     refused = refusals.refused(sample.sensor, codes, REASONS)
     return KalmanState(t_s, joints, refusals.remember(state.latest, sample.sensor, at_s, refused)), refused
 

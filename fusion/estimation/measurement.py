@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fusion.compiled import kernel
-from fusion.estimation.vectors import put, row
+from fusion.estimation.vectors import Vector, put, row
 from fusion.messages import AlignedSample, Floats, States
 from fusion.skeleton import TrackingState
 
@@ -34,8 +34,22 @@ class Measurement(NamedTuple):
     tracked: Flags  # (J,) given and tracked; given but not tracked means inferred
 
 
-def sight(sample: AlignedSample) -> Sight:
-    """Copies, so that no kernel is compiled anew for an array that is read-only or lies otherwise in memory."""
+class Heard(NamedTuple):
+    """What one sample says of one joint."""
+
+    position: Vector  # m in room
+    tracked: bool
+    wandering: bool  # it hangs on a bone whose length is wrong
+
+
+def sight(sample: AlignedSample, joints: int) -> Sight:
+    """Copies, so that no kernel is compiled anew for an array that is read-only or lies otherwise in memory.
+
+    Raises:
+        ValueError: the sample is not one of `joints` joints; a kernel would read beyond its end.
+    """
+    if sample.positions_in_room.shape != (joints, 3) or sample.state.shape != (joints,):
+        raise ValueError(f"a sample of {sample.positions_in_room.shape} and {sample.state.shape} for {joints} joints")
     return Sight(
         np.array(sample.positions_in_room, np.float64, order="C"),
         np.array(sample.state, np.uint8),

@@ -22,8 +22,8 @@ from fusion.estimation.estimator import Estimator
 from fusion.estimation.evidence import Evidence, weigh
 from fusion.estimation.freshness import LOST_AFTER_S, TOO_OLD_S, state_of
 from fusion.estimation.gated_filter import GATE_SIGMA
-from fusion.estimation.measurement import Sight, read, sight
-from fusion.estimation.vectors import distance, length, plus
+from fusion.estimation.measurement import Heard, Sight, read, sight
+from fusion.estimation.vectors import distance, length, plus, row
 from fusion.messages import AlignedSample, Floats, FusedFrame, Refusal, States
 from fusion.skeleton import JOINT_COUNT
 
@@ -107,7 +107,7 @@ def _updated(state: SetState, sample: AlignedSample) -> tuple[SetState, tuple[Re
     own, at_s = state.sensors.index(sample.sensor), float(sample.t_s)
     t_s = max(at_s, state.t_s)
     joints, words, known_bones, codes = _take(
-        state.joints, state.words, state.bones, own, sight(sample), state.t_s, t_s, t_s - at_s
+        state.joints, state.words, state.bones, own, sight(sample, len(state.joints)), state.t_s, t_s, t_s - at_s
     )
     refused = refusals.refused(sample.sensor, codes, REASONS)
     latest = refusals.remember(state.latest, sample.sensor, at_s, refused)
@@ -141,6 +141,7 @@ def _take(
     joints, words, known_bones = before.copy(), words_before.copy(), bones_before.copy()
     measured = read(seen)
     wandering = bones.judge(known_bones[own], measured)
+    lens = (seen.lens_in_room[0], seen.lens_in_room[1], seen.lens_in_room[2])
     codes = np.zeros(len(joints), np.uint8)
     for j in range(len(joints)):
         joint = joints[j]
@@ -149,7 +150,8 @@ def _take(
         share = bias.share_of(words[j, own], t_s)
         if not measured.given[j]:
             continue
-        evidence = weigh(seen, measured, wandering, j, joint, words[j], own, t_s, late_s)
+        heard = Heard(row(measured.positions, j), measured.tracked[j], wandering[j])
+        evidence = weigh(heard, lens, seen.rotation_sensor_to_room, joint, words[j], own, t_s, late_s)
         if evidence.outvoted:
             codes[j] = BONE if wandering[j] else DOUBT
             continue

@@ -58,6 +58,28 @@ def test_a_kernel_is_compiled_anew_when_a_file_beside_it_changes(tmp_path: Path)
     assert called_in_a_new_process(folder) == "16 0"
 
 
+def test_a_kernel_called_with_a_type_that_is_gone_is_compiled_anew(tmp_path: Path) -> None:
+    """What is kept of it names the type; a module of another folder took it away."""
+    folder, other = written(tmp_path), tmp_path / "other"
+    other.mkdir()
+    caller = "from typing import NamedTuple\nfrom far import total\nclass {name}(NamedTuple):\n    x: int\n"
+    (folder / "far.py").write_text("from fusion.compiled import kernel\n@kernel\ndef total(a):\n    return a.x + 1\n")
+    for name in ("Before", "After"):
+        (other / "caller.py").write_text("")
+        (other / "near.py").write_text(caller.format(name=name) + f"print(total({name}(3)))\n")
+        (folder / "caller.py").write_text("import sys; sys.path.insert(0, 'other'); import near")
+        assert called_in_a_new_process(folder) == "4"
+
+
+def test_only_one_version_of_a_kernel_is_kept(tmp_path: Path) -> None:
+    folder = written(tmp_path)
+    for factor in (2, 5):
+        (folder / "helper.py").write_text(HELPER.format(factor=factor))
+        called_in_a_new_process(folder)
+    assert len(list(folder.glob("__pycache__/caller.called-*.nbi"))) == 1
+    assert len(list(folder.glob("__pycache__/caller.called-*.nbc"))) == 1
+
+
 def test_where_nothing_can_be_kept_kernels_work_all_the_same(tmp_path: Path) -> None:
     folder = written(tmp_path)
     (folder / "__pycache__").write_text("no folder")

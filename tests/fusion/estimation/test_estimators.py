@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -13,6 +14,8 @@ from fusion.estimation import METHODS
 from fusion.estimation.adaptive import Adaptive
 from fusion.estimation.average import Average
 from fusion.estimation.estimator import Estimator
+from fusion.estimation.kalman import Kalman
+from fusion.estimation.set_membership import SetMembership
 from fusion.messages import FusedFrame
 from fusion.skeleton import JOINT_COUNT
 
@@ -154,3 +157,26 @@ def test_what_comes_back_after_an_occlusion_is_taken_within_three_frames(make: M
     frame = estimator.frame(at_s)
     assert np.linalg.norm(frame.positions_in_room - body_at(at_s), axis=1).max() < 0.06
     assert (frame.state == 2).all()
+
+
+@pytest.mark.parametrize("joints", [8, 32])
+@pytest.mark.parametrize("make", [SetMembership, Kalman])
+def test_a_body_may_have_any_number_of_joints(make: type[SetMembership] | type[Kalman], joints: int) -> None:
+    """The first 25 are as they are with 25, bone lengths included; what is beyond them has no bones."""
+    usual, other = make(), make(joints)
+    shared = min(joints, JOINT_COUNT)
+    for sample in both(2.0):
+        usual.update(sample)
+        positions = np.resize(sample.positions_in_room, (joints, 3))
+        other.update(replace(sample, positions_in_room=positions, state=np.resize(sample.state, joints)))
+    expected, frame = usual.frame(2.0), other.frame(2.0)
+    np.testing.assert_array_equal(frame.positions_in_room[:shared], expected.positions_in_room[:shared])
+    np.testing.assert_array_equal(frame.bound_m[:shared], expected.bound_m[:shared])
+    assert np.isfinite(frame.bound_m).all()
+
+
+@every_method
+def test_a_sample_of_another_number_of_joints_is_refused_before_anything_is_read_of_it(make: Make) -> None:
+    sample = sample_at(0.0)
+    with pytest.raises(ValueError, match="joints"):
+        make().update(replace(sample, positions_in_room=sample.positions_in_room[:-1]))

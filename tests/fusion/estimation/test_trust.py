@@ -24,11 +24,11 @@ class Sensor:
         self.words: Records = np.full(JOINT_COUNT, -np.inf, record(trust.FIELDS))
 
     def wandering(self, sample: AlignedSample) -> Flags:
-        return bones.judge(self.bones.copy(), read(sight(sample)))
+        return bones.judge(self.bones.copy(), read(sight(sample, JOINT_COUNT)))
 
     def believed(self, sample: AlignedSample) -> Flags:
         """(J,) which joints of a sample are believed; learns from it."""
-        measured = read(sight(sample))
+        measured = read(sight(sample, JOINT_COUNT))
         wandering = bones.judge(self.bones, measured)
         return np.array(
             [
