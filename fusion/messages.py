@@ -124,9 +124,6 @@ class ArmLengths:
     upper_arm_m: float
     forearm_m: float
     hand_m: float
-    upper_arm_share: float = 1.0
-    """How much of its joints' sets the segment's length was ever seen to use; 1 = all, or not known yet."""
-    forearm_share: float = 1.0
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,21 +6,60 @@ arm is a right arm here and no left-handed matrix ever becomes a rotation.
 
 from __future__ import annotations
 
-from math import atan2, cos, pi, sin
-from typing import Final
+from math import atan2, cos, hypot, isnan, pi, sin
+from typing import Final, NamedTuple
 
 import numpy as np
 
-from fusion.kinematics import direction_sets
+from fusion.compiled import kernel
+from fusion.kinematics.direction_sets import (
+    FOREARM_TOLERANCE_M,
+    UPPER_ARM_TOLERANCE_M,
+    ArmBounds,
+    Segment,
+    arm_bounds,
+    spread,
+)
+from fusion.kinematics.vectors import Triple, Vector, angle_between, dot, length, step, sum_of, unit
 from fusion.messages import ArmLengths, Floats, FusedFrame, JointAngles, TrunkFrame
 from fusion.skeleton import Side, TrackingState, arm
 
-HANGING: Final[Floats] = np.array([0.0, -1.0, 0.0])
-INWARD: Final[Floats] = np.array([-1.0, 0.0, 0.0])
-AHEAD: Final[Floats] = np.array([0.0, 0.0, -1.0])
+HANGING: Final[Vector] = (0.0, -1.0, 0.0)
+INWARD: Final[Vector] = (-1.0, 0.0, 0.0)
+AHEAD: Final[Vector] = (0.0, 0.0, -1.0)
+ARM_JOINTS: Final = {side: arm(side)[:3] for side in Side}
+"""Shoulder, elbow, wrist."""
+OUTWARD: Final = {Side.RIGHT: 1.0, Side.LEFT: -1.0}
+"""Sign of the trunk's x in limb coordinates."""
+Joints = tuple[int, int, int]
 
 
-def arm_angles(frame: FusedFrame, trunk: TrunkFrame, side: Side, lengths: ArmLengths) -> JointAngles:
+class Pose(NamedTuple):
+    """How an arm is held."""
+
+    upper: Vector
+    """Unit vector of the upper arm as (outward, up, back)."""
+    plane: float
+    elevation: float
+    flexion: float
+    twist: float
+
+
+class PerAngle(NamedTuple):
+    """One number for each of an arm's three angles, in radians."""
+
+    swing: float
+    elbow: float
+    turn: float
+    """Of the forearm about the upper arm, as an arc: the twist's times the sine of the flexion."""
+
+
+UNWITNESSED: Final = PerAngle(pi, pi, pi)
+
+
+def arm_angles(
+    frame: FusedFrame, trunk: TrunkFrame, side: Side, lengths: ArmLengths, witnessed: PerAngle = UNWITNESSED
+) -> JointAngles:
     """One arm's angles and their bounds.
 
     ISB (Wu et al. 2005, humerus Y-X-Y): with p, e, t the swing's plane and elevation and the twist, the humerus is
@@ -32,69 +71,35 @@ def arm_angles(frame: FusedFrame, trunk: TrunkFrame, side: Side, lengths: ArmLen
         trunk: its trunk.
         side: which arm.
         lengths: its learnt segment lengths, which turn joint sets into direction sets.
+        witnessed: bounds learnt from the sensors (`witnesses`); the less of these and of the joints' sets is told.
 
     Returns:
         The angles; `valid` is False and the angles NaN where shoulder, elbow or wrist is lost.
     """
-    shoulder, elbow, wrist, _ = arm(side)
-    upper, forearm = (
-        _to_limb(frame.positions_in_room[b] - frame.positions_in_room[a], trunk, side)
-        for a, b in ((shoulder, elbow), (elbow, wrist))
-    )
-    seen = bool((frame.state[[shoulder, elbow, wrist]] > TrackingState.LOST).all())
-    upper_m, forearm_m = float(np.linalg.norm(upper)), float(np.linalg.norm(forearm))
-    if not (seen and upper_m > 0 and forearm_m > 0):
+    joints = ARM_JOINTS[side]
+    positions, rotation = frame.positions_in_room, trunk.rotation_trunk_to_room
+    pose = arm_pose(positions, rotation, OUTWARD[side], joints)
+    if isnan(pose.flexion) or any(frame.state[joint] == TrackingState.LOST for joint in joints):
         return _unknown(frame.t_s, side)
-    return _known(frame, side, lengths, upper / upper_m, forearm / forearm_m)
-
-
-def _known(frame: FusedFrame, side: Side, lengths: ArmLengths, upper: Floats, forearm: Floats) -> JointAngles:
-    plane, elevation = swing_from_direction(upper)
-    flexion = _angle_between(upper, forearm)
-    twist = twist_from_forearm(upper, forearm)
-    swing_bound, twist_bound, elbow_bound = _bounds(frame, side, lengths, elevation, flexion)
+    known_m = (lengths.upper_arm_m, lengths.forearm_m)
+    bounds = _bounds(pose, positions, frame.shape_m2, frame.bound_m, joints, known_m, witnessed)
     return JointAngles(
         t_s=frame.t_s,
         side=side,
-        plane_of_elevation_rad=plane,
-        elevation_rad=elevation,
-        axial_rotation_rad=wrapped(twist - plane),
-        elbow_flexion_rad=flexion,
-        alpha_rad=pi - elevation,
-        beta_rad=atan2(upper[1], -upper[0]),
-        gamma_rad=flexion,
-        direction_in_limb=upper,
-        twist_rad=twist,
-        swing_bound_rad=swing_bound,
-        twist_bound_rad=twist_bound,
-        elbow_bound_rad=elbow_bound,
+        plane_of_elevation_rad=pose.plane,
+        elevation_rad=pose.elevation,
+        axial_rotation_rad=wrapped(pose.twist - pose.plane),
+        elbow_flexion_rad=pose.flexion,
+        alpha_rad=pi - pose.elevation,
+        beta_rad=atan2(pose.upper[1], -pose.upper[0]),
+        gamma_rad=pose.flexion,
+        direction_in_limb=np.array(pose.upper),
+        twist_rad=pose.twist,
+        swing_bound_rad=bounds.swing,
+        twist_bound_rad=bounds.twist,
+        elbow_bound_rad=bounds.elbow,
         valid=True,
     )
-
-
-def _bounds(
-    frame: FusedFrame, side: Side, lengths: ArmLengths, elevation: float, flexion: float
-) -> tuple[float, float, float]:
-    """Bounds of swing, twist and elbow."""
-    shoulder, elbow, wrist, _ = arm(side)
-    swing = _segment_bound(frame, shoulder, elbow, lengths.upper_arm_m, lengths.upper_arm_share)
-    forearm = _segment_bound(frame, elbow, wrist, lengths.forearm_m, lengths.forearm_share)
-    distance_m = direction_sets.distance_m(frame, shoulder, wrist)
-    expected_m = direction_sets.hinge_distance_m(flexion, lengths.upper_arm_m, lengths.forearm_m)
-    share = max(lengths.upper_arm_share, lengths.forearm_share)
-    ends = direction_sets.believed(direction_sets.spread(frame, shoulder, wrist), distance_m, expected_m, share)
-    hinge = direction_sets.hinge_bound(flexion, lengths.upper_arm_m, lengths.forearm_m, distance_m, ends)
-    return (
-        swing,
-        direction_sets.twist_bound(elevation, flexion, swing, forearm),
-        direction_sets.elbow_bound(flexion, swing, forearm, hinge),
-    )
-
-
-def _segment_bound(frame: FusedFrame, start: int, end: int, known_m: float, share: float) -> float:
-    estimated_m = direction_sets.distance_m(frame, start, end)
-    spread = direction_sets.believed(direction_sets.spread(frame, start, end), estimated_m, known_m, share)
-    return direction_sets.direction_bound(estimated_m, known_m, spread)
 
 
 def _unknown(t_s: float, side: Side) -> JointAngles:
@@ -118,35 +123,89 @@ def _unknown(t_s: float, side: Side) -> JointAngles:
     )
 
 
+@kernel
+def arm_pose(positions: Floats, rotation_trunk_to_room: Floats, outward: float, joints: Joints) -> Pose:
+    """How the arm of `joints` is held in a trunk; all NaN where a joint is missing or two fall together.
+
+    Args:
+        positions: (J, 3) m in the room.
+        rotation_trunk_to_room: (3, 3).
+        outward: `OUTWARD` of the side.
+        joints: shoulder, elbow, wrist.
+    """
+    shoulder, elbow, wrist = joints
+    upper = unit(to_limb(step(positions, shoulder, elbow, 1.0), rotation_trunk_to_room, outward))
+    forearm = unit(to_limb(step(positions, elbow, wrist, 1.0), rotation_trunk_to_room, outward))
+    return pose_of(upper, forearm)
+
+
+@kernel
+def pose_of(upper: Triple, forearm: Triple) -> Pose:
+    """The angles of two unit vectors in limb coordinates."""
+    plane, elevation = swing_from_direction(upper)
+    direction = (upper[0], upper[1], upper[2])
+    twist = twist_from_forearm(upper, forearm)
+    return Pose(direction, plane, elevation, angle_between(upper, forearm), twist)
+
+
+@kernel
+def _bounds(
+    pose: Pose,
+    positions: Floats,
+    shape_m2: Floats,
+    bound_m: Floats,
+    joints: Joints,
+    known_m: tuple[float, float],
+    witnessed: PerAngle,
+) -> ArmBounds:
+    """Bounds of swing, twist and elbow: from the joints' sets, or as witnessed."""
+    shoulder, elbow, wrist = joints
+    upper_m, forearm_m = length(step(positions, shoulder, elbow, 1.0)), length(step(positions, elbow, wrist, 1.0))
+    segments = (
+        Segment(upper_m, known_m[0], UPPER_ARM_TOLERANCE_M),
+        Segment(forearm_m, known_m[1], FOREARM_TOLERANCE_M),
+    )
+    spreads = (
+        spread(positions, shape_m2, bound_m, shoulder, elbow),
+        spread(positions, shape_m2, bound_m, elbow, wrist),
+        spread(positions, shape_m2, bound_m, shoulder, wrist),
+    )
+    apart_m = length(step(positions, shoulder, wrist, 1.0))
+    sets = arm_bounds(pose.elevation, pose.flexion, segments, spreads, apart_m)
+    twist = witnessed.turn / max(sin(pose.flexion), 1e-9)
+    return ArmBounds(min(sets.swing, witnessed.swing), min(sets.twist, twist), min(sets.elbow, witnessed.elbow))
+
+
 def direction_from_swing(plane_rad: float, elevation_rad: float) -> Floats:
     """The upper arm's unit vector (outward, up, back); plane 0 = sideways, π/2 = ahead; elevation 0 = hanging."""
     return np.array([sin(elevation_rad) * cos(plane_rad), -cos(elevation_rad), -sin(elevation_rad) * sin(plane_rad)])
 
 
-def swing_from_direction(direction_in_limb: Floats) -> tuple[float, float]:
+@kernel
+def swing_from_direction(direction_in_limb: Triple) -> tuple[float, float]:
     """Plane in (−π, π] and elevation in [0, π] of an upper arm's direction; the plane is 0 where it is undefined."""
-    outward, up, back = (float(part) for part in direction_in_limb)
-    level = float(np.hypot(outward, back))
-    plane = atan2(-back, outward) if level > 0 else 0.0
+    outward, up, back = direction_in_limb[0], direction_in_limb[1], direction_in_limb[2]
+    level = hypot(outward, back)
+    plane = atan2(-back, outward) if level > 0.0 else 0.0
     return plane, atan2(level, -up)
 
 
-def twist_from_forearm(upper: Floats, forearm: Floats) -> float:
+@kernel
+def twist_from_forearm(upper: Triple, forearm: Triple) -> float:
     """The humerus' rotation after the least swing from the hanging arm; internal +; 0 where the forearm does not tell.
 
     Args:
         upper: (3,) unit vector of the upper arm in limb coordinates.
         forearm: (3,) unit vector of the forearm in limb coordinates.
     """
-    across = forearm - (forearm @ upper) * upper
-    hanging = _carried(across, upper, HANGING)
-    return atan2(float(hanging @ INWARD), float(hanging @ AHEAD))
+    hanging = _carried(sum_of(forearm, upper, -dot(forearm, upper)), upper, HANGING)
+    return atan2(dot(hanging, INWARD), dot(hanging, AHEAD))
 
 
 def forearm_from_twist(upper: Floats, twist_rad: float, elbow_rad: float) -> Floats:
     """The forearm's unit vector in limb coordinates; inverse of `twist_from_forearm`."""
-    across = _carried(cos(twist_rad) * AHEAD + sin(twist_rad) * INWARD, HANGING, upper)
-    return cos(elbow_rad) * upper + sin(elbow_rad) * across
+    across = _carried((-sin(twist_rad), 0.0, -cos(twist_rad)), HANGING, upper)
+    return np.asarray(cos(elbow_rad) * upper + sin(elbow_rad) * np.array(across))
 
 
 def arm_points_in_trunk(
@@ -175,33 +234,32 @@ def arm_points_in_trunk(
     upper = direction_from_swing(plane, elevation)
     forearm = forearm_from_twist(upper, rotation, elbow)
     steps = np.array([np.zeros(3), lengths.upper_arm_m * upper, lengths.forearm_m * forearm, lengths.hand_m * forearm])
-    return shoulder_in_trunk + np.cumsum(steps, axis=0) * _signs(side)
+    return np.asarray(shoulder_in_trunk + np.cumsum(steps, axis=0) * (OUTWARD[side], 1.0, 1.0))
 
 
+@kernel
 def wrapped(angle_rad: float) -> float:
     """The same angle in (−π, π]."""
     return atan2(sin(angle_rad), cos(angle_rad))
 
 
-def _to_limb(vector_in_room: Floats, trunk: TrunkFrame, side: Side) -> Floats:
+@kernel
+def to_limb(vector_in_room: Triple, rotation_trunk_to_room: Floats, outward: float) -> Vector:
     """(outward, up, back) of a room vector."""
-    in_trunk: Floats = vector_in_room @ trunk.rotation_trunk_to_room
-    return in_trunk * _signs(side)
+    x, y, z = vector_in_room
+    axes = rotation_trunk_to_room
+    return (
+        outward * (x * axes[0, 0] + y * axes[1, 0] + z * axes[2, 0]),
+        x * axes[0, 1] + y * axes[1, 1] + z * axes[2, 1],
+        x * axes[0, 2] + y * axes[1, 2] + z * axes[2, 2],
+    )
 
 
-def _signs(side: Side) -> Floats:
-    return np.array([1.0 if side is Side.RIGHT else -1.0, 1.0, 1.0])
-
-
-def _carried(across: Floats, start: Floats, end: Floats) -> Floats:
+@kernel
+def _carried(across: Triple, start: Triple, end: Triple) -> Vector:
     """A vector perpendicular to `start`, turned by the least rotation that takes `start` to `end` (unit vectors).
 
     v − (v·end) / (1 + start·end) · (start + end); undefined only where they are opposed (an arm straight overhead).
     """
-    together = max(1.0 + float(start @ end), 1e-12)
-    return across - (float(across @ end) / together) * (start + end)
-
-
-def _angle_between(a: Floats, b: Floats) -> float:
-    """Angle of two unit vectors, exact near 0 and π too."""
-    return 2.0 * atan2(float(np.linalg.norm(a - b)), float(np.linalg.norm(a + b)))
+    together = max(1.0 + dot(start, end), 1e-12)
+    return sum_of(across, sum_of(start, end, 1.0), -dot(across, end) / together)

@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+from math import isnan
 from typing import Final
 
 import numpy as np
 
+from fusion.compiled import kernel
+from fusion.kinematics.vectors import Vector, between, cross, dot, known_or, length, row, step, sum_of, unit
 from fusion.messages import Floats, TrunkFrame
 from fusion.skeleton import INDEX
 
 SMALLEST_M: Final = 0.05
 """A shoulder line or spine shorter than this says nothing about a direction."""
+PELVIS, SPINE, NECK, TOP = (INDEX[name] for name in ("SpineBase", "SpineMid", "Neck", "SpineShoulder"))
+SHOULDER_LEFT, SHOULDER_RIGHT = INDEX["ShoulderLeft"], INDEX["ShoulderRight"]
+HIP_LEFT, HIP_RIGHT = INDEX["HipLeft"], INDEX["HipRight"]
 
 
 def trunk_frame(positions_in_room: Floats) -> TrunkFrame | None:
@@ -26,47 +32,43 @@ def trunk_frame(positions_in_room: Floats) -> TrunkFrame | None:
     Returns:
         The frame, or None where the joints do not determine one.
     """
-    joints = _Joints(positions_in_room)
-    origin, line, spine = joints.origin(), joints.shoulder_line(), joints.spine()
-    y = spine / np.linalg.norm(spine)
-    across = line - (line @ y) * y
-    width = float(np.linalg.norm(across))
-    if np.isnan(origin).any() or not (width > SMALLEST_M and np.linalg.norm(spine) > SMALLEST_M):
-        return None
-    x = across / width
-    return TrunkFrame(origin, np.column_stack([x, y, np.cross(x, y)]))
+    origin, rotation = np.empty(3), np.empty((3, 3))
+    return TrunkFrame(origin, rotation) if _found(positions_in_room, origin, rotation) else None
 
 
-class _Joints:
-    """Joints by name, each falling back on its neighbours; NaN where nothing helps."""
-
-    def __init__(self, positions: Floats) -> None:
-        self._positions = positions
-
-    def at(self, name: str) -> Floats:
-        place: Floats = self._positions[INDEX[name]]
-        return place
-
-    def shoulder_line(self) -> Floats:
-        """From the left to the right shoulder, or hip."""
-        return _first(
-            self.at("ShoulderRight") - self.at("ShoulderLeft"),
-            2.0 * (self.at("ShoulderRight") - self.at("SpineShoulder")),
-            2.0 * (self.at("SpineShoulder") - self.at("ShoulderLeft")),
-            self.at("HipRight") - self.at("HipLeft"),
-        )
-
-    def origin(self) -> Floats:
-        """Mid-point of the shoulders."""
-        return _first(0.5 * (self.at("ShoulderLeft") + self.at("ShoulderRight")), self.at("SpineShoulder"))
-
-    def spine(self) -> Floats:
-        """From the pelvis up; the long base first, because it is the steadier direction."""
-        top = _first(self.at("SpineShoulder"), self.origin(), self.at("Neck"))
-        pelvis = _first(self.at("SpineBase"), 0.5 * (self.at("HipLeft") + self.at("HipRight")), self.at("SpineMid"))
-        return top - pelvis
+@kernel
+def _found(positions: Floats, origin: Floats, rotation: Floats) -> bool:
+    """Write the frame; False where there is none."""
+    middle, line, spine = _middle(positions), _shoulder_line(positions), _spine(positions)
+    y = unit(spine)
+    across = sum_of(line, y, -dot(line, y))
+    if isnan(dot(middle, middle)) or not (length(across) > SMALLEST_M and length(spine) > SMALLEST_M):
+        return False
+    x = unit(across)
+    z = cross(x, y)
+    for k in range(3):
+        origin[k], rotation[k, 0], rotation[k, 1], rotation[k, 2] = middle[k], x[k], y[k], z[k]
+    return True
 
 
-def _first(*candidates: Floats) -> Floats:
-    """The first candidate without a gap, else the last."""
-    return next((c for c in candidates if not np.isnan(c).any()), candidates[-1])
+@kernel
+def _shoulder_line(positions: Floats) -> Vector:
+    """From the left to the right shoulder; else twice one half of it; else from hip to hip."""
+    whole, hips = step(positions, SHOULDER_LEFT, SHOULDER_RIGHT, 1.0), step(positions, HIP_LEFT, HIP_RIGHT, 1.0)
+    right, left = step(positions, TOP, SHOULDER_RIGHT, 2.0), step(positions, SHOULDER_LEFT, TOP, 2.0)
+    return known_or(whole, known_or(right, known_or(left, hips)))
+
+
+@kernel
+def _middle(positions: Floats) -> Vector:
+    """Mid-point of the shoulders, or the spine between them."""
+    return known_or(between(positions, SHOULDER_LEFT, SHOULDER_RIGHT), row(positions, TOP))
+
+
+@kernel
+def _spine(positions: Floats) -> Vector:
+    """From the pelvis up; the long base first, because it is the steadier direction."""
+    top = known_or(row(positions, TOP), known_or(_middle(positions), row(positions, NECK)))
+    hips = between(positions, HIP_LEFT, HIP_RIGHT)
+    pelvis = known_or(row(positions, PELVIS), known_or(hips, row(positions, SPINE)))
+    return sum_of(top, pelvis, -1.0)

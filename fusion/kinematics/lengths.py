@@ -1,40 +1,37 @@
-"""Learns an arm's segment lengths, and how constant they are, from the frames in which it is well seen."""
+"""Learns an arm's segment lengths from the frames in which it is well seen."""
 
 from __future__ import annotations
 
+from bisect import bisect_left, insort
 from collections import deque
-from typing import Final
+from math import isnan
+from typing import Final, NamedTuple
 
 import numpy as np
 
-from fusion.kinematics.direction_sets import SAFETY, distance_m, spread
-from fusion.messages import ArmLengths, Floats, FusedFrame
+from fusion.kinematics.vectors import length, step
+from fusion.messages import ArmLengths, FusedFrame
 from fusion.skeleton import Side, TrackingState, arm
 
 EVERY_S: Final = 0.1
 MEMORY: Final = 300
 """Samples remembered: 30 s. Old ones leave, so another patient's arm is forgotten."""
 ENOUGH: Final = 10
-ENOUGH_TO_JUDGE: Final = 20
-"""Samples before the lengths' constancy says anything about the sets."""
-NEARLY_ALL: Final = 95.0
-LEAST_SPREAD_M: Final = 0.05
-"""No segment is believed to be known better than this, however constant it looks: an arm at rest, seen wrongly in the
-same way all the time, looks constant too."""
 USUAL_HAND_M: Final = 0.08
 """Wrist to the hand's centre for sensors that give no hand."""
+_JOINTS: Final = {side: arm(side) for side in Side}
 
 
 class LengthLearner:
     """Medians of the segment lengths over the last half minute of well-seen frames.
 
     The median is taken because a joint that wanders makes a segment longer or shorter for a while; up to half of the
-    frames may be wrong. Memory is finite. The share of the joints' sets that the lengths use is 1.5 times the 95th
-    percentile of |length − median| over the sets' extent along the segment.
+    frames may be wrong. Memory is finite.
     """
 
     def __init__(self) -> None:
-        self._samples: deque[Floats] = deque(maxlen=MEMORY)
+        self._segments = (_Lately(), _Lately(), _Lately())  # upper arm, forearm, hand
+        self._misfits = _Lately()
         self._next_s = -np.inf
         self._lengths: ArmLengths | None = None
 
@@ -43,35 +40,72 @@ class LengthLearner:
         """What is known so far; None until a second's worth of frames has been seen."""
         return self._lengths
 
+    def ruler(self, frame: FusedFrame, side: Side) -> Ruler:
+        """How wrong the forearm's length is, as a share of it: what it shows of all errors of its size."""
+        known_m = self._segments[1].median
+        _, elbow, wrist, _ = _JOINTS[side]
+        now_m = length(step(frame.positions_in_room, elbow, wrist, 1.0))
+        return Ruler(self._misfits.median / known_m, abs(now_m - known_m) / known_m)
+
     def update(self, frame: FusedFrame, side: Side) -> None:
         """Take a frame in, if the arm is seen and the last one was long enough ago."""
-        if frame.t_s < self._next_s or (frame.state[list(arm(side)[:3])] != TrackingState.TRACKED).any():
+        joints = _JOINTS[side]
+        if frame.t_s < self._next_s or any(frame.state[joint] != TrackingState.TRACKED for joint in joints[:3]):
             return
         self._next_s = frame.t_s + EVERY_S
-        self._samples.append(_measured(frame, side))
-        if len(self._samples) >= ENOUGH:
-            self._lengths = _learnt(np.array(self._samples))
+        measured = _measured(frame, joints)
+        if isnan(measured[0] + measured[1]):
+            return
+        for segment, length_m in zip(self._segments, measured, strict=True):
+            segment.take(length_m)
+        forearm = self._segments[1]
+        self._misfits.take(abs(forearm.newest - forearm.median))
+        if forearm.count >= ENOUGH:
+            self._lengths = ArmLengths(*(segment.median for segment in self._segments))
 
 
-def _measured(frame: FusedFrame, side: Side) -> Floats:
-    """(5,) lengths of upper arm, forearm and hand, and the sets' extent along the first two."""
-    shoulder, elbow, wrist, hand = arm(side)
-    hand_m = distance_m(frame, wrist, hand)
-    if frame.state[hand] != TrackingState.TRACKED or np.isnan(hand_m):
+class Ruler(NamedTuple):
+    """|forearm's length − the learnt one| over the learnt one."""
+
+    usual: float
+    """Median of the last half minute."""
+    now: float
+
+
+class _Lately:
+    """The latest numbers, in order of time and in order of size."""
+
+    def __init__(self) -> None:
+        self._by_time: deque[float] = deque()
+        self._by_size: list[float] = []
+
+    @property
+    def count(self) -> int:
+        return len(self._by_size)
+
+    @property
+    def newest(self) -> float:
+        return self._by_time[-1]
+
+    @property
+    def median(self) -> float:
+        middle = self.count // 2
+        if self.count % 2:
+            return self._by_size[middle]
+        return 0.5 * (self._by_size[middle - 1] + self._by_size[middle])
+
+    def take(self, number: float) -> None:
+        self._by_time.append(number)
+        insort(self._by_size, number)
+        if self.count > MEMORY:
+            del self._by_size[bisect_left(self._by_size, self._by_time.popleft())]
+
+
+def _measured(frame: FusedFrame, joints: tuple[int, int, int, int]) -> tuple[float, float, float]:
+    """Lengths of upper arm, forearm and hand."""
+    shoulder, elbow, wrist, hand = joints
+    positions = frame.positions_in_room
+    hand_m = length(step(positions, wrist, hand, 1.0))
+    if frame.state[hand] != TrackingState.TRACKED or isnan(hand_m):
         hand_m = USUAL_HAND_M
-    lengths_m = distance_m(frame, shoulder, elbow), distance_m(frame, elbow, wrist), hand_m
-    return np.array([*lengths_m, spread(frame, shoulder, elbow).along_m, spread(frame, elbow, wrist).along_m])
-
-
-def _learnt(samples: Floats) -> ArmLengths:
-    upper_m, forearm_m, hand_m = (float(m) for m in np.median(samples[:, :3], axis=0))
-    shares = [_share(samples[:, k], samples[:, 3 + k]) for k in (0, 1)]
-    return ArmLengths(upper_m, forearm_m, hand_m, *shares)
-
-
-def _share(lengths_m: Floats, along_m: Floats) -> float:
-    """How much of the sets a segment's length uses, at most 1."""
-    if len(lengths_m) < ENOUGH_TO_JUDGE or not (np.isfinite(along_m) & (along_m > 0)).all():
-        return 1.0
-    used = np.percentile(np.abs(lengths_m - np.median(lengths_m)) / along_m, NEARLY_ALL)
-    return min(1.0, max(SAFETY * float(used), LEAST_SPREAD_M / float(np.median(along_m))))
+    return length(step(positions, shoulder, elbow, 1.0)), length(step(positions, elbow, wrist, 1.0)), hand_m

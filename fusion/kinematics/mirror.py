@@ -61,7 +61,7 @@ def _copied(healthy: JointAngles, twist_rad: float) -> MirrorTarget:
 
 def _resting(healthy: JointAngles, previous: MirrorTarget | None) -> MirrorTarget:
     """Nothing to follow: stay, claim nothing."""
-    last = previous or replace(_copied(healthy, 0.0), direction_in_limb=HANGING, elbow_rad=0.0)
+    last = previous or replace(_copied(healthy, 0.0), direction_in_limb=np.array(HANGING), elbow_rad=0.0)
     return replace(
         last,
         t_s=healthy.t_s,

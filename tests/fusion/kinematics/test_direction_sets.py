@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fusion.kinematics.angles import arm_angles, arm_points_in_trunk, wrapped
-from fusion.kinematics.direction_sets import spread
+from fusion.kinematics.direction_sets import FOREARM_TOLERANCE_M, UPPER_ARM_TOLERANCE_M, spread
 from fusion.messages import ArmLengths, Floats, FusedFrame, JointAngles, TrunkFrame
 from fusion.skeleton import JOINT_COUNT, Side, arm
 
@@ -79,7 +79,11 @@ def test_a_learnt_length_that_is_a_little_wrong_breaks_no_bound(
     rng = np.random.default_rng(seed)
     points = arm_points_in_trunk(*pose, LENGTHS, Side.RIGHT, np.zeros(3))
     truth = arm_angles(frame_of(points, ball(0.01)), HERE, Side.RIGHT, LENGTHS)
-    learnt = ArmLengths(*(m + rng.uniform(-0.02, 0.02) for m in (0.28, 0.25, 0.08)))
+    learnt = ArmLengths(
+        0.28 + rng.uniform(-UPPER_ARM_TOLERANCE_M, UPPER_ARM_TOLERANCE_M),
+        0.25 + rng.uniform(-FOREARM_TOLERANCE_M, FOREARM_TOLERANCE_M),
+        0.08,
+    )
     shapes = random_sets(rng, 0.08)
     bounds_hold(truth, arm_angles(frame_of(points + inside(rng, shapes), shapes), HERE, Side.RIGHT, learnt))
 
@@ -113,8 +117,8 @@ def test_a_badly_seen_elbow_leaves_the_flexion_bounded_by_shoulder_and_wrist() -
     shapes = np.array(ball(0.02))
     shapes[1] = np.eye(3) * 0.3**2
     found = angles_with(shapes)
-    assert found.swing_bound_rad > 1.0
-    assert found.elbow_bound_rad < 0.6
+    assert found.swing_bound_rad > 1.3
+    assert found.elbow_bound_rad < 1.0
 
 
 def test_uncertainty_along_the_segment_costs_less_than_across() -> None:
@@ -135,40 +139,6 @@ def test_sets_that_are_not_known_claim_nothing() -> None:
     assert 0.04 / 0.28 < only_balls.swing_bound_rad < 0.3
 
 
-def test_a_share_of_the_sets_gives_the_bounds_of_smaller_sets() -> None:
-    points = arm_points_in_trunk(0.8, 1.0, 0.2, 1.4, LENGTHS, Side.RIGHT, np.zeros(3))
-    wide, narrow = frame_of(points, ball(0.1)), frame_of(points, ball(0.03))
-    some = arm_angles(wide, HERE, Side.RIGHT, replace(LENGTHS, upper_arm_share=0.3, forearm_share=0.3))
-    few = arm_angles(narrow, HERE, Side.RIGHT, LENGTHS)
-    assert some.swing_bound_rad == pytest.approx(few.swing_bound_rad)
-    assert some.twist_bound_rad == pytest.approx(few.twist_bound_rad)
-    assert some.elbow_bound_rad == pytest.approx(few.elbow_bound_rad)
-
-
-def test_a_segment_of_the_wrong_length_is_not_believed() -> None:
-    learnt = replace(LENGTHS, upper_arm_share=0.3, forearm_share=0.3)
-    right, wrong = (
-        arm_angles(
-            frame_of(arm_points_in_trunk(0.8, 1.0, 0.2, 1.4, seen, Side.RIGHT, np.zeros(3)), ball(0.1)),
-            HERE,
-            Side.RIGHT,
-            learnt,
-        )
-        for seen in (LENGTHS, ArmLengths(0.40, 0.25, 0.08))
-    )
-    assert right.swing_bound_rad < 0.35
-    assert wrong.swing_bound_rad > 1.8 * right.swing_bound_rad
-
-
-def test_sets_that_grow_while_nobody_sees_the_arm_widen_its_bounds() -> None:
-    learnt = replace(LENGTHS, upper_arm_share=0.3, forearm_share=0.3)
-    points = arm_points_in_trunk(0.8, 1.0, 0.2, 1.4, LENGTHS, Side.RIGHT, np.zeros(3))
-    bounds = [arm_angles(frame_of(points, ball(b)), HERE, Side.RIGHT, learnt).swing_bound_rad for b in (0.1, 0.2, 0.5)]
-    assert bounds[0] < 0.35
-    assert bounds[0] < bounds[1] < bounds[2]
-    assert bounds[2] > 0.7
-
-
 @given(seed=st.integers(0, 9999))
 def test_the_widths_of_a_set_are_those_of_its_shadow(seed: int) -> None:
     rng = np.random.default_rng(seed)
@@ -176,7 +146,8 @@ def test_the_widths_of_a_set_are_those_of_its_shadow(seed: int) -> None:
     points = arm_points_in_trunk(0.8, 1.0, 0.2, 1.4, LENGTHS, Side.RIGHT, np.zeros(3))
     axis = (points[1] - points[0]) / 0.28
     plane = np.eye(3) - np.outer(axis, axis)
-    found = spread(frame_of(points, shapes), JOINTS[0], JOINTS[1])
+    frame = frame_of(points, shapes)
+    found = spread(frame.positions_in_room, frame.shape_m2, frame.bound_m, JOINTS[0], JOINTS[1])
     assert found.along_m == pytest.approx(sum(np.sqrt(axis @ shape @ axis) for shape in shapes[:2]))
     assert found.across_m == pytest.approx(
         sum(np.sqrt(np.linalg.eigvalsh(plane @ shape @ plane)[-1]) for shape in shapes[:2])

@@ -2,26 +2,22 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
 from fusion.kinematics.angles import arm_points_in_trunk
-from fusion.kinematics.lengths import ENOUGH, LengthLearner
+from fusion.kinematics.lengths import ENOUGH, MEMORY, LengthLearner, Ruler
 from fusion.messages import ArmLengths, FusedFrame
 from fusion.skeleton import JOINT_COUNT, Side, arm
 
 TRUE = ArmLengths(0.30, 0.26, 0.09)
 
 
-def frame(t_s: float, lengths: ArmLengths = TRUE, state: int = 2, bound_m: float = 0.1) -> FusedFrame:
+def frame(t_s: float, lengths: ArmLengths = TRUE, state: int = 2) -> FusedFrame:
     positions = np.full((JOINT_COUNT, 3), np.nan)
     positions[list(arm(Side.LEFT))] = arm_points_in_trunk(t_s, 1.0, 0.2, 1.0, lengths, Side.LEFT, np.zeros(3))
     states = np.full(JOINT_COUNT, state, dtype=np.uint8)
-    return FusedFrame(
-        t_s, positions, np.tile(bound_m**2 * np.eye(3), (JOINT_COUNT, 1, 1)), np.full(JOINT_COUNT, bound_m), states
-    )
+    return FusedFrame(t_s, positions, np.tile(np.eye(3), (JOINT_COUNT, 1, 1)), np.ones(JOINT_COUNT), states)
 
 
 def learnt(frames: list[FusedFrame]) -> ArmLengths | None:
@@ -68,43 +64,31 @@ def test_a_sensor_without_hands_gets_a_usual_hand() -> None:
     assert found.hand_m == pytest.approx(0.08)
 
 
-def scattered(spread_m: float, count: int = 200, bound_m: float = 0.1) -> ArmLengths:
-    """Learnt from arms whose upper arm's length scatters."""
+def ruler(scatter_m: float, now_m: float = 0.26) -> Ruler:
+    """After arms whose forearm's length scatters, and one more of a given length."""
     rng = np.random.default_rng(1)
-    found = learnt(
-        [frame(0.11 * k, ArmLengths(0.30 + spread_m * rng.normal(), 0.26, 0.09), bound_m=bound_m) for k in range(count)]
-    )
+    learner = LengthLearner()
+    for k in range(200):
+        learner.update(frame(0.11 * k, ArmLengths(0.30, 0.26 + scatter_m * rng.normal(), 0.09)), Side.LEFT)
+    return learner.ruler(frame(23.0, ArmLengths(0.30, now_m, 0.09)), Side.LEFT)
+
+
+def test_a_constant_forearm_shows_no_error() -> None:
+    assert ruler(0.0) == pytest.approx((0.0, 0.0), abs=1e-12)
+
+
+def test_the_usual_misfit_is_the_median_of_what_the_length_was_off() -> None:
+    assert ruler(0.02).usual == pytest.approx(0.6745 * 0.02 / 0.26, rel=0.2)
+
+
+def test_a_forearm_that_is_too_long_now_shows_it_at_once() -> None:
+    assert ruler(0.001, 0.31).now == pytest.approx(0.05 / 0.26, rel=0.02)
+    assert ruler(0.001, 0.31).usual < 0.005
+
+
+def test_the_medians_are_those_of_the_last_half_minute() -> None:
+    rng = np.random.default_rng(2)
+    lengths_m = rng.uniform(0.2, 0.3, size=500)
+    found = learnt([frame(0.11 * k, ArmLengths(0.3, m, 0.09)) for k, m in enumerate(lengths_m)])
     assert found is not None
-    return found
-
-
-def test_lengths_that_stay_constant_show_that_the_sets_are_wide() -> None:
-    assert scattered(0.02).upper_arm_share == pytest.approx(1.5 * 1.96 * 0.02 / 0.2, rel=0.2)
-
-
-def test_lengths_that_scatter_leave_the_sets_as_they_are() -> None:
-    assert scattered(0.1).upper_arm_share == 1.0
-
-
-def test_a_perfectly_constant_length_is_not_believed_beyond_five_centimetres() -> None:
-    found = scattered(0.0)
-    assert found.upper_arm_share == pytest.approx(0.05 / 0.2)
-    assert found.forearm_share == pytest.approx(0.05 / 0.2)
-
-
-def test_tight_sets_are_kept_whole() -> None:
-    assert scattered(0.0, bound_m=0.02).upper_arm_share == 1.0
-
-
-def test_too_few_frames_say_nothing_about_the_sets() -> None:
-    assert scattered(0.0, count=15).upper_arm_share == 1.0
-
-
-@pytest.mark.parametrize("bound_m", [0.0, np.inf])
-def test_sets_without_a_size_are_kept_whole(bound_m: float) -> None:
-    frames = [replace(frame(0.11 * k), bound_m=np.full(JOINT_COUNT, bound_m)) for k in range(60)]
-    if np.isinf(bound_m):
-        frames = [replace(one, shape_m2=np.full((JOINT_COUNT, 3, 3), np.nan)) for one in frames]
-    found = learnt(frames)
-    assert found is not None
-    assert found.upper_arm_share == 1.0
+    assert found.forearm_m == pytest.approx(np.median(lengths_m[-MEMORY:]))

@@ -1,0 +1,209 @@
+"""How far each sensor, by itself, was from the told arm: bounds of the angles learnt from what is seen.
+
+The joints' sets (`direction_sets`) add the errors of both ends of a segment as if they had nothing to do with each
+other, and must allow for all that a depth camera may do to a joint. But shoulder, elbow and wrist of one sensor at one
+instant err together, and a direction is steadier than its ends. Two things that are seen all the time say how much:
+
+- every sensor's own segments, held against the told ones of that instant. As for the joints' balls, the bound is the
+  worst disagreement of the last second, what no disagreement can show, and what an acceleration can have added since;
+- the forearm as a ruler: its length is known, so its misfit is an error that anybody can see, and errors across a
+  segment are a few times as large at most.
+
+The larger one counts. Assumptions and measurements: docs/angles.md.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import exp, inf, isnan, nan, pi, sin
+from typing import Final
+
+import numpy as np
+
+from fusion.compiled import kernel
+from fusion.kinematics.angles import ARM_JOINTS, OUTWARD, Joints, PerAngle, pose_of, to_limb, wrapped
+from fusion.kinematics.lengths import Ruler
+from fusion.kinematics.vectors import Vector, angle_between, step, sum_of, unit
+from fusion.messages import AlignedSample, Floats, FusedFrame, TrunkFrame
+from fusion.skeleton import Side, TrackingState
+
+START_RAD: Final = 0.7
+"""The worst disagreement before there was any: an error of 0.2 m [Du2016 Table 1] across a segment of 0.28 m."""
+FORGET_S: Final = 1.0
+AGREED_WITHIN_S: Final = 0.25
+"""Sensors that saw the arm within this time of now confirm one another; a late sensor's word is that old."""
+ACCELERATION_RAD_S2: Final = 75.0
+"""20 m/s² across a segment of 0.27 m."""
+TOLD_COUNT: Final = 64
+"""Told arms remembered: more than half a second at 100 Hz, older than any sample that is still taken."""
+LONGEST_GAP_S: Final = 0.15
+"""Between told arms further apart than this none is made up."""
+
+
+AGREED: Final = PerAngle(0.16, 0.19, 0.19)
+"""Errors that two sensors share, which no disagreement shows."""
+ALONE: Final = PerAngle(0.20, 0.31, 0.31)
+"""What one sensor, held against nothing but its own past, does not show."""
+USUAL_MISFITS: Final = PerAngle(8.0, 9.5, 9.5)
+"""No angle errs by more than this many of the forearm's usual misfits. With errors of equal size in every direction one
+standard deviation is 1.5 of them: 5.4 of the two that make the swing; both others feel the elbow's error twice."""
+MISFIT_NOW: Final = 1.5
+"""A forearm that is too long or too short now shows an error of elbow or wrist; across, it may be this much larger."""
+SMALL_RAD: Final = 0.8
+"""Larger than this, errors are no longer small, and nothing that is learnt from them is believed."""
+
+
+@dataclass(slots=True)
+class _Word:
+    """When a sensor was last heard."""
+
+    taken_s: float = -inf
+    upper_s: float = -inf
+    """It saw the upper arm."""
+    whole_s: float = -inf
+    """It saw the whole arm."""
+
+
+class Witnesses:
+    """Holds every sensor's arm against the told one, tick by tick. Memory is finite."""
+
+    def __init__(self) -> None:
+        self._told = np.full((TOLD_COUNT, 7), -inf)  # time, upper arm, forearm in the room
+        self._at = 0
+        self._words: dict[str, _Word] = {}
+        self._worst = [START_RAD] * 3
+        self._worst_s = -inf
+
+    def hear(
+        self, frame: FusedFrame, trunk: TrunkFrame, side: Side, samples: tuple[AlignedSample, ...], ruler: Ruler
+    ) -> PerAngle:
+        """Take what the sensors say of the told arm.
+
+        Args:
+            frame: the told body; its refusals are those of `samples`.
+            trunk: its trunk.
+            side: which arm.
+            samples: the latest of every sensor; each is taken once.
+            ruler: of the told forearm.
+
+        Returns:
+            The bounds at the frame's time.
+        """
+        joints = ARM_JOINTS[side]
+        self._fade(frame.t_s)
+        self._at = _note(self._told, self._at, frame.t_s, frame.positions_in_room, joints)
+        for sample in samples:
+            word = self._words.setdefault(sample.sensor, _Word())
+            if sample.t_s > word.taken_s:
+                word.taken_s = sample.t_s
+                self._judge(sample, word, _seen(sample, frame, joints), (trunk, side))
+        return self._bounds(frame.t_s, ruler)
+
+    def _fade(self, t_s: float) -> None:
+        left = exp(-max(t_s - self._worst_s, 0.0) / FORGET_S) if self._worst_s > -inf else 1.0
+        self._worst = [worst * left for worst in self._worst]
+        self._worst_s = t_s
+
+    def _judge(self, sample: AlignedSample, word: _Word, seen: int, body: tuple[TrunkFrame, Side]) -> None:
+        """`seen`: how many joints of the arm, from the shoulder on, the sensor saw and was believed in."""
+        if seen < 2:
+            return
+        trunk, side = body
+        axes, outward, joints = trunk.rotation_trunk_to_room, OUTWARD[side], ARM_JOINTS[side]
+        apart = _apart(self._told, self._at, sample.t_s, sample.positions_in_room, axes, outward, joints)
+        if isnan(apart[0]):
+            return
+        word.upper_s = sample.t_s
+        self._worst[0] = max(self._worst[0], apart[0])
+        if seen == 3:
+            word.whole_s = sample.t_s
+            self._worst[1:] = max(self._worst[1], apart[1]), max(self._worst[2], apart[2])
+
+    def _bounds(self, t_s: float, ruler: Ruler) -> PerAngle:
+        upper_s, upper = _doubt([word.upper_s for word in self._words.values()], t_s)
+        whole_s, whole = _doubt([word.whole_s for word in self._words.values()], t_s)
+        added_upper, added_whole = (0.5 * ACCELERATION_RAD_S2 * silence_s**2 for silence_s in (upper_s, whole_s))
+        swing, elbow, turn = self._worst
+        misfit = MISFIT_NOW * ruler.now
+        return PerAngle(
+            _believed(swing + upper.swing + added_upper, USUAL_MISFITS.swing * ruler.usual),
+            _believed(max(elbow, misfit) + whole.elbow + added_whole, USUAL_MISFITS.elbow * ruler.usual),
+            _believed(max(turn, misfit) + whole.turn + added_whole, USUAL_MISFITS.turn * ruler.usual),
+        )
+
+
+def _believed(by_witnesses: float, by_ruler: float) -> float:
+    bound = max(by_witnesses, by_ruler)
+    return bound if bound <= SMALL_RAD else pi
+
+
+def _doubt(heard_s: list[float], t_s: float) -> tuple[float, PerAngle]:
+    """How long nobody has seen the arm, and what is hidden from those who saw it lately."""
+    silence_s = max(t_s - max(heard_s, default=-inf), 0.0)
+    agreed = sum(t_s - heard <= AGREED_WITHIN_S for heard in heard_s) > 1
+    return silence_s, AGREED if agreed else ALONE
+
+
+def _seen(sample: AlignedSample, frame: FusedFrame, joints: Joints) -> int:
+    """How many joints of the arm, from the shoulder on, are tracked and were not refused."""
+    refused = {refusal.joint for refusal in frame.refusals if refusal.sensor == sample.sensor}
+    for count, joint in enumerate(joints):
+        if sample.state[joint] != TrackingState.TRACKED or joint in refused:
+            return count
+    return len(joints)
+
+
+@kernel
+def _note(told: Floats, at: int, t_s: float, positions: Floats, joints: Joints) -> int:
+    """Write the told arm behind the last one, or over it if time stands still; returns its row."""
+    shoulder, elbow, wrist = joints
+    if t_s > told[at, 0]:
+        at = (at + 1) % TOLD_COUNT
+    upper, forearm = step(positions, shoulder, elbow, 1.0), step(positions, elbow, wrist, 1.0)
+    told[at, 0] = t_s
+    for k in range(3):
+        told[at, 1 + k], told[at, 4 + k] = upper[k], forearm[k]
+    return at
+
+
+@kernel
+def _apart(
+    told: Floats, at: int, t_s: float, positions: Floats, axes: Floats, outward: float, joints: Joints
+) -> tuple[float, float, float]:
+    """How far a sensor's arm is from the told one at `t_s`: swing, elbow, and the forearm about the upper arm.
+
+    The last is the difference in twist times the sine of the told flexion: an arc that stays small for a straight
+    elbow, whose twist means nothing. NaN where no arm was told then.
+    """
+    shoulder, elbow, wrist = joints
+    upper, forearm = _told_at(told, at, t_s)
+    true = pose_of(unit(to_limb(upper, axes, outward)), unit(to_limb(forearm, axes, outward)))
+    seen_upper = unit(to_limb(step(positions, shoulder, elbow, 1.0), axes, outward))
+    seen_forearm = unit(to_limb(step(positions, elbow, wrist, 1.0), axes, outward))
+    seen = pose_of(seen_upper, seen_forearm)
+    swing = angle_between(seen.upper, true.upper)
+    turn = abs(wrapped(seen.twist - true.twist)) * sin(true.flexion)
+    return swing, abs(seen.flexion - true.flexion), turn
+
+
+@kernel
+def _told_at(told: Floats, at: int, t_s: float) -> tuple[Vector, Vector]:
+    """The told segments at `t_s`, between the told ones before and after it; NaN before the first."""
+    later = at
+    for back in range(TOLD_COUNT - 1):
+        earlier = (at - back) % TOLD_COUNT
+        if told[earlier, 0] <= t_s:
+            return _mixed(told, earlier, later, t_s)
+        later = earlier
+    return (nan, nan, nan), (nan, nan, nan)
+
+
+@kernel
+def _mixed(told: Floats, earlier: int, later: int, t_s: float) -> tuple[Vector, Vector]:
+    gap_s = told[later, 0] - told[earlier, 0]
+    share = (t_s - told[earlier, 0]) / gap_s if gap_s > 0.0 else 0.0
+    if gap_s > LONGEST_GAP_S:
+        share = 1.0
+    a, b = told[earlier], told[later]
+    upper = sum_of(a[1:4], sum_of(b[1:4], a[1:4], -1.0), share)
+    return upper, sum_of(a[4:7], sum_of(b[4:7], a[4:7], -1.0), share)
