@@ -13,7 +13,7 @@ from time import perf_counter
 import numpy as np
 
 from fusion.align.alignment import SensorAlignment, reference_alignment
-from fusion.align.identity import trunk_centre
+from fusion.align.bodies import trunk_centre
 from fusion.align.whole import Aligned, align_streams
 from fusion.errors import InputError, RecordingError
 from fusion.messages import Floats, FusedFrame, JointAngles, MirrorTarget, SkeletonSample, States

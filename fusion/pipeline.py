@@ -8,7 +8,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fusion.align.alignment import SensorAlignment, reference_alignment
-from fusion.align.identity import Expected, PatientFinder, trunk_centre
+from fusion.align.bodies import Expected, Verdict, trunk_centre
+from fusion.align.identity import PatientFinder
 from fusion.align.learner import EVERY_S
 from fusion.align.mend import Mending, SideKeeper
 from fusion.align.watch import SensorWatch
@@ -71,14 +72,19 @@ class Pipeline:
         """Take one body of one frame; samples of different sensors may come in any order."""
         watch = self._watch(sample.sensor)
         t_s = watch.receive(sample)
-        if not self._patient.is_patient(sample, t_s, lambda: self._expected(watch, t_s)):
-            watch.refusals["another person"] += 1
+        verdict = self._patient.judge(sample, t_s, lambda: self._expected(watch, t_s))
+        if verdict is not Verdict.PATIENT:
+            watch.refusals[verdict.value] += 1
             return
         alignment = self._alignment(watch)
         if alignment is None:
             watch.refusals["not aligned yet" if watch.fault is None else watch.fault.what] += 1
             return
         aligned = alignment.apply(sample, t_s - alignment.clock_offset_s)
+        centre = trunk_centre(aligned.positions_in_room, aligned.state)
+        if not self._patient.agrees(sample.sensor, aligned.t_s, centre, lambda: self._expected(watch, t_s)):
+            watch.refusals[Verdict.FAR.value] += 1
+            return
         mended, what = self._sides.mend(aligned)
         refused = self._body.take(mended)
         self._account(watch, sample, what, refused)
@@ -197,7 +203,7 @@ class Pipeline:
             return
         for name, watch in self._sensors.items():
             if watch is not reference and watch.fault is None:
-                self._patient.prefer(name, watch.learn(track, self._patient.followed(name)))
+                self._patient.prefer(name, watch.learn(track, self._patient.followed(name)), t_s)
 
     def _elect(self) -> None:
         """The reference is the first sensor that has shown a body long enough and can be right."""

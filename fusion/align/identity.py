@@ -1,171 +1,128 @@
-"""Which body of each sensor is the patient: one person is followed, everybody else is refused.
+"""Who the patient is: one person is followed in every sensor, everybody else is refused.
 
-Body numbers say nothing across sensors, change when somebody is lost, and are reused. So a number is believed only
-while the body that wears it moves as a person can; otherwise the place decides: nearest to where the patient was, or,
-as long as nobody is known, nearest to the lens. Whoever was seen beside the patient is somebody else, also when the
-patient is hidden and they stand where the patient was. A person's choice goes before everything.
+Each sensor's bodies are judged by themselves (`bodies`). Sensors whose place is known are also held against one
+another: a body that is not where a surer sensor sees the patient is not used. Surer is who was confirmed by a person,
+then whose body has the patient's bones, then who has followed longer. A person's choice goes before everything.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, field
-from math import dist, isnan
+from dataclasses import dataclass
+from math import dist
+from typing import Final
 
 import numpy as np
 
-from fusion.align.loops import middle_seen
-from fusion.messages import Floats, SkeletonSample, States
-from fusion.skeleton import INDEX, JOINT_COUNT
+from fusion.align.bodies import FITS, BodiesInView, Verdict, WhereExpected
+from fusion.messages import Floats, SkeletonSample
 
-TRUNK = np.array(
-    [INDEX[name] for name in ("SpineBase", "SpineMid", "SpineShoulder", "Neck", "ShoulderLeft", "ShoulderRight")]
-)
-EVERY_JOINT = np.arange(JOINT_COUNT)
-ALIVE_S = 0.5
-"""A followed body that was not seen for this long may be replaced."""
-BESIDE_S = 0.1
-"""Two bodies seen within this time are two people."""
-VISIBLE_S = 0.3
-LOOK_AROUND_S = 0.1
-"""A sensor that starts is watched this long before its nearest body is chosen."""
-REACH_M, SPEED_M_S, FURTHEST_M = 0.5, 2.0, 1.5
-"""How far from where the patient was somebody may be and still be the patient; grows with time up to the furthest."""
-UNKNOWN_AFTER_S = 4.0
-"""After so long without the patient, the nearest to where they were is taken at any distance."""
-JUMP_M, JUMP_SPEED_M_S = 0.6, 6.0
-"""A body that moves further than this from one frame to the next is another person with the same number."""
+APART_M: Final = 0.5
+"""Two sensors' middles of one trunk are never so far apart: their joints differ by 0.06 m, and by three times that
+while a mounting is learnt."""
+APART_FOR_S: Final = 0.3
+"""After so long, whoever stands where the patient should be is taken instead."""
+TOGETHER_S: Final = 0.2
+"""Places of two sensors are held against one another within this time."""
 
 
 @dataclass(frozen=True, slots=True)
-class Expected:
-    """Where the patient's trunk should be in a sensor's own frame, and for how long nobody has confirmed it."""
+class BodyInView:
+    """A body that a sensor sees now, for the therapist to say who the patient is."""
 
-    centre_in_sensor: Floats  # (3,)
-    age_s: float
-
-    def admits(self, centre: Floats) -> bool:
-        """Whether somebody at `centre` (3,) may be the patient."""
-        if self.age_s > UNKNOWN_AFTER_S:
-            return True
-        reach = min(REACH_M + SPEED_M_S * self.age_s, FURTHEST_M)
-        return bool(np.linalg.norm(centre - self.centre_in_sensor) < reach)
-
-
-@dataclass(frozen=True, slots=True)
-class Sighting:
-    """A body as it was last seen by one sensor."""
-
+    sensor: str
     body: str
-    t_s: float
     centre_in_sensor: Floats  # (3,)
+    verdict: Verdict
+    confirmed: bool
+    """Whether a person said that this is the patient."""
 
 
-@dataclass(slots=True)
-class _View:
-    """One sensor's bodies and which of them is followed."""
+@dataclass(frozen=True, slots=True)
+class _Place:
+    """Where a sensor saw the patient last."""
 
-    since_s: float
-    seen: dict[str, Sighting] = field(default_factory=dict)
-    others: set[str] = field(default_factory=set)
-    """Bodies that were seen beside the followed one."""
-    followed: str | None = None
-
-    def choose(self, body: str | None) -> None:
-        """Follow another body."""
-        if body != self.followed:
-            self.followed = body
-            self.others.clear()
-
-
-def trunk_centre(positions: Floats, state: States) -> Floats:
-    """Median of the trunk's seen joints (3,), of all joints where the trunk is not seen; NaN when nothing is."""
-    centre = middle_seen(positions, state, TRUNK)
-    return middle_seen(positions, state, EVERY_JOINT) if isnan(centre[0]) else centre
+    t_s: float
+    centre_in_room: Floats  # (3,)
+    apart_since_s: float | None
+    """Since when surer sensors have seen the patient elsewhere."""
 
 
 class PatientFinder:
     """Follows one person in every sensor."""
 
     def __init__(self) -> None:
-        self._views: dict[str, _View] = {}
+        self._views: dict[str, BodiesInView] = {}
+        self._places: dict[str, _Place] = {}
 
     def follow(self, sensor: str, body: str) -> None:
         """A person's choice: this body is the patient. The other sensors find the same person by place."""
         for view in self._views.values():
-            view.choose(None)
-        self._views.setdefault(sensor, _View(-np.inf)).choose(body)
+            view.follow_anew()
+        self._places.clear()
+        self._views.setdefault(sensor, BodiesInView(-np.inf)).confirm(body)
 
     def begin_session(self) -> None:
         """Another patient may come: who stood beside the last one may be the next."""
         for view in self._views.values():
-            view.others.clear()
+            view.begin_session()
 
-    def prefer(self, sensor: str, body: str | None) -> None:
+    def prefer(self, sensor: str, body: str | None, t_s: float) -> None:
         """Follow this body in one sensor, as it moves like the patient in the reference; None changes nothing."""
         if body is not None and sensor in self._views:
-            self._views[sensor].choose(body)
+            self._views[sensor].prefer(body, t_s)
 
     def followed(self, sensor: str) -> str | None:
         """The body followed in a sensor."""
         view = self._views.get(sensor)
         return view.followed if view else None
 
-    def is_patient(self, sample: SkeletonSample, t_s: float, expected: Callable[[], Expected | None]) -> bool:
-        """Take one body of one frame; True when it is the patient's.
+    def bodies(self, t_s: float) -> tuple[BodyInView, ...]:
+        """Everybody in view at `t_s` (receive clock), the patient included."""
+        return tuple(
+            BodyInView(
+                sensor, seen.body, seen.centre_in_sensor, seen.verdict, view.confirmed and seen.body == view.followed
+            )
+            for sensor, view in self._views.items()
+            for seen in view.visible(t_s)
+        )
+
+    def judge(self, sample: SkeletonSample, t_s: float, expected: WhereExpected) -> Verdict:
+        """Take one body of one frame.
 
         Args:
             sample: the body.
             t_s: its time on the receive clock.
-            expected: tells where the patient should be, None while that is not known in this sensor's frame; asked
-                only where somebody has to be chosen.
+            expected: where the patient should be; asked only where somebody has to be chosen or refused.
         """
-        centre = trunk_centre(sample.positions_in_sensor, sample.state)
-        if isnan(centre[0]):
-            return False
-        view = self._views.setdefault(sample.sensor, _View(t_s))
-        before = view.seen.get(sample.body)
-        view.seen[sample.body] = Sighting(sample.body, t_s, centre)
-        if before is not None and t_s - before.t_s > UNKNOWN_AFTER_S:
-            view.others.discard(sample.body)  # numbers are reused: after so long it may be anybody
-        if before is not None and _jumped(before, view.seen[sample.body]):
-            view.others.discard(sample.body)
-            view.followed = None if view.followed == sample.body else view.followed
-        self._decide(view, sample.body, t_s, expected)
-        return view.followed == sample.body
+        return self._views.setdefault(sample.sensor, BodiesInView(t_s)).judge(sample, t_s, expected)
 
-    def _decide(self, view: _View, body: str, t_s: float, expected: Callable[[], Expected | None]) -> None:
-        """Keep the followed body while it lives, and remember who is beside it; else choose anew."""
-        if view.followed is None or _unseen_s(view, t_s) > ALIVE_S:
-            view.followed = _choose(view, t_s, expected()) or view.followed
-        elif body != view.followed and _unseen_s(view, t_s) < BESIDE_S:
-            view.others.add(body)
+    def agrees(self, sensor: str, t_s: float, centre_in_room: Floats, expected: WhereExpected) -> bool:
+        """Whether a sensor's patient is where every surer sensor sees theirs.
 
+        Args:
+            sensor: that sees its patient.
+            t_s: aligned time.
+            centre_in_room: (3,) the patient's middle by this sensor.
+            expected: where the patient should be in this sensor's frame.
+        """
+        before = self._places.get(sensor)
+        apart = any(dist(place.centre_in_room, centre_in_room) > APART_M for place in self._surer(sensor, t_s))
+        since_s = (t_s if before is None or before.apart_since_s is None else before.apart_since_s) if apart else None
+        self._places[sensor] = _Place(t_s, centre_in_room, since_s)
+        if since_s is not None and t_s - since_s > APART_FOR_S:
+            self._views[sensor].reconsider(t_s, expected)
+        return not apart
 
-def _jumped(before: Sighting, now: Sighting) -> bool:
-    """Whether a number went to somebody else; after a silence anybody may have walked anywhere."""
-    dt = now.t_s - before.t_s
-    moved = dist(before.centre_in_sensor, now.centre_in_sensor)
-    return dt < ALIVE_S and moved > JUMP_M + JUMP_SPEED_M_S * max(dt, 0.0)
+    def _surer(self, sensor: str, t_s: float) -> list[_Place]:
+        """Where the surer sensors see the patient just now."""
+        own = self._sureness(sensor)
+        return [
+            place
+            for other, place in self._places.items()
+            if other != sensor and abs(t_s - place.t_s) < TOGETHER_S and self._sureness(other) > own
+        ]
 
-
-def _unseen_s(view: _View, t_s: float) -> float:
-    """For how long the followed body has not been seen; 0 where a person chose it and it has not come yet."""
-    last = view.seen.get(view.followed or "")
-    return 0.0 if last is None else t_s - last.t_s
-
-
-def _choose(view: _View, t_s: float, expected: Expected | None) -> str | None:
-    """The visible body that is most likely the patient; None while nobody may be."""
-    recent = (seen for seen in view.seen.values() if t_s - seen.t_s < VISIBLE_S)
-    visible = [seen for seen in recent if seen.body not in view.others]
-    if expected is not None:
-        visible = [seen for seen in visible if expected.admits(seen.centre_in_sensor)]
-        origin = expected.centre_in_sensor
-    else:
-        origin = np.zeros(3)
-        if t_s - view.since_s < LOOK_AROUND_S:
-            return None
-    if not visible:
-        return None
-    return min(visible, key=lambda seen: float(np.linalg.norm(seen.centre_in_sensor - origin))).body
+    def _sureness(self, sensor: str) -> tuple[bool, bool, float, int]:
+        """Of two that are equal in everything, the one that came first."""
+        view = self._views[sensor]
+        return view.confirmed, view.misfit < FITS, -view.followed_since_s, -list(self._views).index(sensor)

@@ -160,7 +160,7 @@ def test_a_bystander_is_not_fused_until_a_person_chooses_them(bodies):
     pipeline.follow("left", "2")
     after = live(pipeline, samples, 5.0, from_s=3.0)[-1]
     assert np.linalg.norm(after.fused.positions_in_room[0] - bodies.body_at(5.0)[0] - ASIDE) < 0.05
-    assert pipeline.refusals()["left"]["another person"] > 100
+    assert pipeline.refusals()["left"]["another person: seen beside the patient"] > 100
 
 
 def test_a_sender_with_a_clock_of_its_own_needs_no_help(bodies, room):

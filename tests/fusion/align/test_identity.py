@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from fusion.align.identity import Expected, PatientFinder
+from fusion.align.bodies import Expected, Verdict
+from fusion.align.identity import PatientFinder
 from fusion.messages import SkeletonSample
 from fusion.skeleton import JOINT_COUNT
 
@@ -26,7 +27,7 @@ def unknown():
 
 def run(finder, seen, expected=unknown):
     """Who is taken for the patient, over samples in order."""
-    return [sample.body for sample in seen if finder.is_patient(sample, sample.t_s, expected)]
+    return [sample.body for sample in seen if finder.judge(sample, sample.t_s, expected) is Verdict.PATIENT]
 
 
 def test_the_nearest_to_the_lens_is_chosen_when_nobody_is_known(body):
@@ -106,3 +107,111 @@ def test_a_persons_choice_wins(body):
 def test_a_body_without_a_seen_joint_is_nobody(body):
     blind = SkeletonSample("k", "a", 0.0, 0.0, np.full((JOINT_COUNT, 3), np.nan), np.zeros(JOINT_COUNT, np.uint8))
     assert run(PatientFinder(), [blind]) == []
+
+
+CHILD = 0.8
+"""Of an adult's size."""
+
+
+@pytest.fixture
+def built(bodies):
+    """A body of any size, about its pelvis."""
+
+    def make(name, t_s, at=(0.0, 0.0, 2.0), size=1.0, sensor="k"):
+        return SkeletonSample(sensor, name, t_s, t_s, size * bodies.BODY + np.asarray(at), TRACKED)
+
+    return make
+
+
+def times(from_s, to_s):
+    return np.arange(from_s, to_s, 1 / 30)
+
+
+def verdicts(finder, seen, expected=unknown):
+    return [finder.judge(sample, sample.t_s, expected) for sample in seen]
+
+
+def test_a_number_that_goes_over_to_somebody_of_another_build_is_let_go(built):
+    """They cross, and the number walks away with the other one: nothing jumps."""
+    finder = PatientFinder()
+    run(finder, [built("1", t) for t in times(0, 6)])
+    handed_over = [built("1", t, (0.5 * (t - 6), 0, 2.0), CHILD) for t in times(6, 11)]
+    told = verdicts(finder, handed_over)
+    assert told[-1] is Verdict.BONES
+    assert told.count(Verdict.PATIENT) < 3.5 * 30
+
+
+def test_somebody_of_another_build_who_takes_the_patients_place_is_let_go(built):
+    finder = PatientFinder()
+    here = Expected(np.array([0.0, 0.3, 2.0]), 0.8)
+    run(finder, [built("1", t) for t in times(0, 6)])
+    told = verdicts(finder, [built("2", t, size=CHILD) for t in times(6.6, 11)], lambda: here)
+    assert told[-1] is Verdict.BONES
+    assert told.count(Verdict.PATIENT) < 2 * 30
+    again = verdicts(finder, [built("3", t) for t in times(11, 13)], lambda: here)
+    assert again[-1] is Verdict.PATIENT
+
+
+def test_a_therapist_who_comes_into_view_before_the_patient_and_leans_over_is_refused(built):
+    """The patient's own number is lost behind the therapist, and a new one is given after."""
+    finder = PatientFinder()
+    here = Expected(np.array([0.0, 0.3, 2.0]), 0.0)
+    both = [
+        s for t in times(0, 6) for s in (built("patient", t), built("therapist", t, (1.2 - t / 8, 0, 1.9), size=1.15))
+    ]
+    assert set(run(finder, both, lambda: here)) == {"patient"}
+    leaning = [built("therapist", t, (0.2, 0, 1.8), size=1.15) for t in times(6, 9)]
+    assert run(finder, leaning, lambda: here) == []
+    back = [s for t in times(9, 11) for s in (built("new", t), built("therapist", t, (0.4, 0, 1.8), size=1.15))]
+    assert set(run(finder, back, lambda: here)) == {"new"}
+
+
+def test_a_choice_is_kept_though_the_bones_look_different_for_a_moment(built):
+    finder = PatientFinder()
+    both = [s for t in times(0, 2) for s in (built("a", t), built("b", t, (0.8, 0, 2.5)))]
+    run(finder, both)
+    finder.follow("k", "b")
+    badly_seen = [built("b", t, (0.8, 0, 2.5), 0.92) for t in times(2, 5)]
+    assert set(verdicts(finder, badly_seen)) == {Verdict.PATIENT}
+
+
+def paired(finder, seen, expected):
+    """Samples of two sensors whose frames are the room's: which bodies are used."""
+    for sample in seen:
+        verdict = finder.judge(sample, sample.t_s, expected)
+        at = sample.positions_in_sensor[0]
+        if verdict is Verdict.PATIENT and finder.agrees(sample.sensor, sample.t_s, at, expected):
+            yield sample.sensor, sample.body
+
+
+def test_a_sensor_that_follows_somebody_else_is_not_used_and_comes_back_to_the_patient(built):
+    """Its number for the patient leaves with a visitor of the same build; the patient gets a new one in it."""
+    finder = PatientFinder()
+    here = Expected(np.array([0.0, 0.4, 2.0]), 0.0)
+    list(paired(finder, [built("1", t, sensor=s) for t in times(0, 2) for s in "ab"], lambda: here))
+    leaving = [
+        sample
+        for t in times(2, 6)
+        for sample in (
+            built("1", t, sensor="a"),
+            built("1", t, (0.6 * (t - 2), 0, 2.0), sensor="b"),
+            *((built("9", t, sensor="b"),) if t > 3 else ()),
+        )
+    ]
+    used = list(paired(finder, leaving, lambda: here))
+    assert ("b", "1") not in used[90:]
+    assert ("b", "9") in used
+    assert used[-1] == ("b", "9")
+    assert {body for sensor, body in used if sensor == "a"} == {"1"}
+
+
+def test_everybody_in_view_is_told_with_a_reason(built):
+    finder = PatientFinder()
+    run(finder, [s for t in times(0, 1) for s in (built("a", t), built("b", t, (0.8, 0, 2.5)))])
+    told = {seen.body: (seen.verdict, seen.confirmed) for seen in finder.bodies(1.0)}
+    assert told == {"a": (Verdict.PATIENT, False), "b": (Verdict.BESIDE, False)}
+    finder.follow("k", "b")
+    run(finder, [s for t in times(1, 1.2) for s in (built("a", t), built("b", t, (0.8, 0, 2.5)))])
+    told = {seen.body: (seen.verdict, seen.confirmed) for seen in finder.bodies(1.2)}
+    assert told == {"a": (Verdict.BESIDE, False), "b": (Verdict.PATIENT, True)}
+    assert finder.bodies(9.0) == ()
