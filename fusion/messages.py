@@ -59,6 +59,29 @@ class AlignedSample:
 
 
 @dataclass(frozen=True, slots=True)
+class SegmentSample:
+    """How one body segment is turned, from an inertial sensor without magnetometer."""
+
+    site: str
+    """Where the sensor sits, as recordings name it: `upper-back`, `upper-arm-right`, …"""
+    t_s: float
+    """On the reference sensor's clock."""
+    rotation_sensor_to_earth: Floats  # (3, 3), z of the earth up; its heading is the sensor's own and drifts slowly
+
+
+@dataclass(frozen=True, slots=True)
+class PositionSample:
+    """Where a radio tag is, and the ranges that say so."""
+
+    tag: str
+    t_s: float
+    """On the reference sensor's clock."""
+    position_in_anchors: Floats  # (3,) m, z up
+    anchors: Floats  # (A, 3) m, z up; A = 0 where the positioning system tells no ranges
+    range_m: Floats  # (A,) the ranges behind the position, NaN where there is none
+
+
+@dataclass(frozen=True, slots=True)
 class Refusal:
     """A measurement that was not used, and why."""
 
