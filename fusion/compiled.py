@@ -40,8 +40,12 @@ def kernel(function: Function) -> Function:
 
 
 def record(fields: list[Any]) -> np.dtype[np.void]:
-    """A record with these fields, for arrays whose elements a kernel reads as `joint.position`."""
-    return np.dtype((np.record, np.dtype(fields, align=True)))
+    """A record with these fields, for arrays whose elements a kernel reads as `joint.position`.
+
+    A field of its own beside them keeps numba from taking it for another record that begins alike, with a warning.
+    """
+    kind = f"kind_{sha256(repr(fields).encode()).hexdigest()[:8]}"
+    return np.dtype((np.record, np.dtype([*fields, (kind, "i8")], align=True)))
 
 
 def _kept(function: Callable[..., Any]) -> Any:

@@ -6,38 +6,44 @@ of its own box; bounding it over the predicted set, as printed, lets the sets ex
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from math import isfinite, sqrt
 from typing import ClassVar, Final
 
 import numpy as np
 
-from fusion.compiled import kernel
+from fusion.compiled import Record, Records, kernel, record
 from fusion.estimation import refusals
 from fusion.estimation.error_box import half_width_in_room
 from fusion.estimation.estimator import Estimator
 from fusion.estimation.evidence import BELIEVED_HALF_WIDTH_M, DOUBTED_HALF_WIDTH_M
-from fusion.estimation.freshness import LOST_AFTER_S, TOO_OLD_S, seconds_in_motion, states_of
-from fusion.estimation.measurement import Flags, Measurement, Sight, read, sight
+from fusion.estimation.freshness import LOST_AFTER_S, TOO_OLD_S, seconds_in_motion, state_of
+from fusion.estimation.gated_filter import insists
+from fusion.estimation.matrices import inverse, largest_eigenvalue
+from fusion.estimation.measurement import Measurement, Sight, read, sight
 from fusion.estimation.motion_set import ACCELERATION_MAX, SPEED_MAX
-from fusion.estimation.vectors import plus, row
-from fusion.messages import AlignedSample, Floats, FusedFrame, Refusal
+from fusion.estimation.vectors import Vector, length, plus, row, widened
+from fusion.messages import AlignedSample, Floats, FusedFrame, Refusal, States
 from fusion.skeleton import JOINT_COUNT
 
-RESTART_AFTER_S: Final = 0.5
-"""Refusals in a row for this long mean that the set is wrong, not the sensors."""
 REASONS: Final = ("", "does not meet the set")
-P, V = slice(0, 3), slice(3, 6)
+TAKEN, SET = range(len(REASONS))
+JOINT: Final = record(
+    [
+        ("centre", "f8", (6,)),  # m and m/s; NaN for a joint never seen
+        ("shape", "f8", (6, 6)),  # of E(centre, shape)
+        ("seen_s", "f8"),  # time of the last measurement that was used
+        ("refused_since_s", "f8"),  # when the present row of refusals began; +inf when there is none
+    ]
+)
 
 
 @dataclass(frozen=True, slots=True)
 class EsmfState:
-    """E(centre, shape) of every joint at `t_s`."""
+    """All that the filter knows at `t_s`."""
 
     t_s: float
-    centre: Floats  # (J, 6) m and m/s; NaN for a joint never seen
-    shape: Floats  # (J, 6, 6)
-    seen_s: Floats  # (J,) time of the last measurement that was used
-    refused_since_s: Floats  # (J,) when the present row of refusals began; +inf when there is none
+    joints: Records  # (J,) of JOINT
     latest: refusals.Latest
 
 
@@ -46,35 +52,23 @@ class Esmf(Estimator):
 
     name: ClassVar[str] = "esmf"
 
-    def __init__(self) -> None:
-        never, none = np.full(JOINT_COUNT, -np.inf), np.full(JOINT_COUNT, np.inf)
-        shape = np.broadcast_to(np.eye(6), (JOINT_COUNT, 6, 6))
-        self._state = EsmfState(-np.inf, np.full((JOINT_COUNT, 6), np.nan), shape, never, none, ())
+    def __init__(self, joints: int = JOINT_COUNT) -> None:
+        unseen = np.zeros(joints, JOINT)
+        unseen["centre"], unseen["shape"] = np.nan, np.eye(6)
+        unseen["seen_s"], unseen["refused_since_s"] = -np.inf, np.inf
+        self._state = EsmfState(-np.inf, unseen, ())
 
     def update(self, sample: AlignedSample) -> tuple[Refusal, ...]:
         """Predict to the sample, drop what does not meet its set, cut with the rest."""
         if sample.t_s < self._state.t_s - TOO_OLD_S:
             return ()
-        self._state, refused = _take(self._state, sample)
+        self._state, refused = _updated(self._state, sample)
         return refused
 
     def frame(self, t_s: float) -> FusedFrame:
         """The predicted ellipsoid; its centre is halted three frames after the last measurement (SR-4)."""
-        state = predict(self._state, t_s)
-        from_s = min(self._state.t_s, t_s) if np.isfinite(self._state.t_s) else t_s
-        held_s = np.maximum(t_s - from_s - _in_motion(self._state.seen_s, float(from_s), float(t_s)), 0.0)
-        beyond = state.centre[:, V] * held_s[:, None]  # what the set moves on alone
-        beyond_m = np.linalg.norm(np.nan_to_num(beyond), axis=1)
-        seen = np.isfinite(state.seen_s)
-        longest_m = np.sqrt(np.linalg.eigvalsh(state.shape[:, P, P])[:, -1])
-        bound_m = np.where(seen, longest_m + beyond_m, np.inf)
-        ball = np.where(seen, bound_m, 0.0)[:, None, None] ** 2 * np.eye(3)
-        shape_m2 = np.where((beyond_m > 0)[:, None, None], ball, state.shape[:, P, P])
-        shape_m2 = np.where(seen[:, None, None], shape_m2, np.nan)
-        recent = refusals.fresh(state.latest, t_s)
-        return FusedFrame(
-            t_s, state.centre[:, P] - beyond, shape_m2, bound_m, states_of(state.seen_s, float(t_s)), recent
-        )
+        told = _tell(self._state.joints, self._state.t_s, float(t_s))
+        return FusedFrame(t_s, *told, refusals.fresh(self._state.latest, t_s))
 
     def snapshot(self) -> object:
         """The filter's state."""
@@ -87,96 +81,162 @@ class Esmf(Estimator):
         self._state = snapshot
 
 
-def predict(state: EsmfState, t_s: float) -> EsmfState:
+def _updated(state: EsmfState, sample: AlignedSample) -> tuple[EsmfState, tuple[Refusal, ...]]:
+    at_s = float(sample.t_s)
+    t_s = max(at_s, state.t_s)
+    joints, codes = _take(state.joints, sight(sample, len(state.joints)), state.t_s, t_s, t_s - at_s)
+    refused = refusals.refused(sample.sensor, codes, REASONS)
+    return EsmfState(t_s, joints, refusals.remember(state.latest, sample.sensor, at_s, refused)), refused
+
+
+@kernel
+def predict(joint: Record, dt: float) -> None:
     """F E ⊕ Q: P/(1-b) + Q/b with b = √tr Q / (√tr P + √tr Q), Q what |a| <= 20 m/s² adds to p and v."""
-    dt = t_s - state.t_s
     if not 0 < dt < np.inf:  # an older sample, or the very first
-        return replace(state, t_s=max(t_s, state.t_s))
-    step = np.eye(6)
-    step[P, V] = dt * np.eye(3)
-    added = 2 * ACCELERATION_MAX**2 * np.diag([dt**4 / 4] * 3 + [dt**2] * 3)  # doubled: it holds both balls at once
-    moved = step @ state.shape @ step.T
-    ratio = np.sqrt(np.trace(added) / np.einsum("jii->j", moved))[:, None, None]  # b / (1 - b)
-    shape = moved * (1 + ratio) + added * (1 + 1 / ratio)
-    return replace(state, t_s=t_s, centre=state.centre @ step.T, shape=shape)
+        return
+    P = joint.shape
+    for i in range(3):
+        joint.centre[i] += dt * joint.centre[3 + i]
+        for k in range(6):
+            P[i, k] += dt * P[3 + i, k]  # F P, then (F P) F'
+    trace = 0.0
+    for i in range(6):
+        for k in range(3):
+            P[i, k] += dt * P[i, 3 + k]
+        trace += P[i, i]
+    added_p, added_v = ACCELERATION_MAX**2 * dt**4 / 2, 2 * ACCELERATION_MAX**2 * dt**2  # doubled: both balls at once
+    ratio = sqrt(3 * (added_p + added_v) / trace)  # b / (1 - b)
+    for i in range(6):
+        for k in range(6):
+            P[i, k] *= 1 + ratio
+        P[i, i] += (added_p if i < 3 else added_v) * (1 + 1 / ratio)
 
 
-def cut(state: EsmfState, positions: Floats, measured_m2: Floats, joints: Flags) -> tuple[EsmfState, Flags]:
-    """Cut with the ellipsoids around `positions` (J, 3) of diagonal shape `measured_m2` (J, 3), where `joints` (J,).
+@kernel
+def cut(joint: Record, position: Vector, measured_m2: Vector) -> bool:
+    """Cut with the ellipsoid around `position` of diagonal shape `measured_m2`; says whether they met.
 
     B = P/(1-ρ), W = (C B C' + R/ρ)⁻¹, K = B C' W, x + K d, δ = d' W d, (1-δ)(B - B C' W C B), with
-    ρ = √r/(√p + √r), r and p the largest singular values of R and C P C'. Says which met, δ < 1; the others stay.
+    ρ = √r/(√p + √r), r and p the largest singular values of R and C P C'. They met where δ < 1; else it stays.
     """
-    largest_p = np.linalg.eigvalsh(state.shape[:, P, P])[:, -1]
-    largest_r = measured_m2.max(axis=1)
-    rho = (np.sqrt(largest_r) / (np.sqrt(largest_p) + np.sqrt(largest_r)))[:, None, None]
-    body = state.shape / (1 - rho)
-    weight = np.linalg.inv(body[:, P, P] + measured_m2[:, :, None] * np.eye(3) / rho)
-    gain = body[:, :, P] @ weight  # (J, 6, 3)
-    innovation = positions - state.centre[:, P]
-    delta = np.einsum("ji,jik,jk->j", innovation, weight, innovation)
-    met = joints & (delta < 1)
-    centre = state.centre + np.einsum("jik,jk->ji", gain, innovation)
-    shape = (1 - delta)[:, None, None] * (body - gain @ body[:, P, :])
-    shape = (shape + shape.swapaxes(1, 2)) / 2
-    return _replaced(state, met, centre, shape), met
-
-
-def _take(state: EsmfState, sample: AlignedSample) -> tuple[EsmfState, tuple[Refusal, ...]]:
-    state = predict(state, sample.t_s)
-    seen = sight(sample, JOINT_COUNT)
-    measured = read(seen)
-    late_s = max(state.t_s - sample.t_s, 0.0)
-    speed = np.clip(np.nan_to_num(state.centre[:, V]), -SPEED_MAX, SPEED_MAX)
-    positions = measured.positions + speed * late_s
-    measured_m2 = _measured_m2(seen, measured, float(2 * SPEED_MAX * late_s))  # the joint may have gone the other way
-    state, met = cut(state, positions, measured_m2, measured.given)
-    since_s = np.where(measured.given, np.minimum(state.refused_since_s, state.t_s), state.refused_since_s)
-    since_s = np.where(met, np.inf, since_s)
-    lost = ~(state.t_s - state.seen_s < LOST_AFTER_S)
-    begun = measured.given & ~met & (lost | (state.t_s - since_s >= RESTART_AFTER_S))
-    state = _begun(state, positions, measured_m2, begun)
-    codes = (measured.given & ~met & ~begun).astype(np.uint8)
-    refused = refusals.refused(sample.sensor, codes, REASONS)
-    latest = refusals.remember(state.latest, sample.sensor, sample.t_s, refused)
-    return replace(state, refused_since_s=np.where(begun, np.inf, since_s), latest=latest), refused
-
-
-@kernel
-def _measured_m2(seen: Sight, measured: Measurement, wider_m: float) -> Floats:
-    """(J, 3) m², the diagonal of the least ellipsoid around each measurement's box."""
-    squares = np.empty_like(measured.positions)
-    for j in range(len(squares)):
-        box_m = BELIEVED_HALF_WIDTH_M if measured.tracked[j] else DOUBTED_HALF_WIDTH_M
-        from_lens = plus(row(measured.positions, j), seen.lens_in_room, -1.0)
-        half = half_width_in_room(from_lens, seen.rotation_sensor_to_room, box_m)
+    r, p = sqrt(max(measured_m2[0], measured_m2[1], measured_m2[2])), sqrt(largest_eigenvalue(joint.shape))
+    rho = r / (p + r)
+    B, S, d = np.empty((6, 6)), np.empty((3, 3)), np.empty(3)
+    for i in range(6):
+        for k in range(6):
+            B[i, k] = joint.shape[i, k] / (1 - rho)
+    for i in range(3):
         for k in range(3):
-            squares[j, k] = 3 * (half[k] + wider_m) ** 2
-    return squares
+            S[i, k] = B[i, k]
+        S[i, i] += measured_m2[i] / rho
+        d[i] = position[i] - joint.centre[i]
+    W = inverse(S)
+    delta = _form(d, W, d)
+    if delta < 1:
+        _shrink(joint, B, W, d, 1 - delta)
+    return delta < 1
 
 
 @kernel
-def _in_motion(seen_s: Floats, from_s: float, to_s: float) -> Floats:
-    """(J,) `seconds_in_motion` of every joint."""
-    seconds = np.empty_like(seen_s)
-    for j in range(len(seconds)):
-        seconds[j] = seconds_in_motion(seen_s[j], from_s, to_s)
-    return seconds
+def _shrink(joint: Record, B: Floats, W: Floats, d: Floats, left: float) -> None:
+    """Take x + B C' W d and (1-δ)(B - B C' W C B), the latter's two halves alike."""
+    for i in range(6):
+        joint.centre[i] += _form(B[i], W, d)
+        for k in range(i + 1):
+            entry = left * (B[i, k] - _form(B[i], W, B[k]))
+            joint.shape[i, k], joint.shape[k, i] = entry, entry
 
 
-def _begun(state: EsmfState, positions: Floats, measured_m2: Floats, which: Flags) -> EsmfState:
-    """Start the joints in `which` from their box alone, at any speed within the bound."""
-    if not which.any():
-        return state
-    squares = np.concatenate([2 * measured_m2, np.full((JOINT_COUNT, 3), 2 * SPEED_MAX**2)], axis=1)
-    at_rest = np.concatenate([positions, np.zeros_like(positions)], axis=1)
-    return _replaced(state, which, at_rest, squares[:, :, None] * np.eye(6))
+@kernel
+def _form(a: Floats, W: Floats, b: Floats) -> float:
+    """The sum a' W b over the first three of each."""
+    total = 0.0
+    for i in range(3):
+        for k in range(3):
+            total += a[i] * W[i, k] * b[k]
+    return total
 
 
-def _replaced(state: EsmfState, which: Flags, centre: Floats, shape: Floats) -> EsmfState:
-    return replace(
-        state,
-        centre=np.where(which[:, None], centre, state.centre),
-        shape=np.where(which[:, None, None], shape, state.shape),
-        seen_s=np.where(which, state.t_s, state.seen_s),
-    )
+@kernel
+def _take(before: Records, seen: Sight, from_s: float, t_s: float, late_s: float) -> tuple[Records, refusals.Codes]:
+    """Move all joints from `from_s` to `t_s`, take what was measured `late_s` before, say what was refused."""
+    joints, measured = before.copy(), read(seen)
+    codes = np.zeros(len(joints), np.uint8)
+    for j in range(len(joints)):
+        joint = joints[j]
+        predict(joint, t_s - from_s)
+        if not measured.given[j]:
+            continue
+        position = _carried_on(joint, row(measured.positions, j), late_s)
+        measured_m2 = _measured_m2(seen, measured, j, 2 * SPEED_MAX * late_s)  # it may have gone the other way
+        met = cut(joint, position, measured_m2)
+        insisting = insists(joint, met, t_s)
+        if not (met or insisting or not t_s - joint.seen_s < LOST_AFTER_S):
+            codes[j] = SET
+            continue
+        if not met:
+            _begin(joint, position, measured_m2)
+        joint.seen_s, joint.refused_since_s = t_s, np.inf
+    return joints, codes
+
+
+@kernel
+def _carried_on(joint: Record, position: Vector, late_s: float) -> Vector:
+    """A position measured a little before the joint's own time, moved on with its velocity."""
+    if not isfinite(joint.seen_s):
+        return position
+    v = joint.centre
+    slow = (min(max(v[3], -SPEED_MAX), SPEED_MAX), min(max(v[4], -SPEED_MAX), SPEED_MAX))
+    return plus(position, (slow[0], slow[1], min(max(v[5], -SPEED_MAX), SPEED_MAX)), late_s)
+
+
+@kernel
+def _measured_m2(seen: Sight, measured: Measurement, j: int, wider_m: float) -> Vector:
+    """The diagonal of the least ellipsoid around a measurement's box, in m²."""
+    box_m = BELIEVED_HALF_WIDTH_M if measured.tracked[j] else DOUBTED_HALF_WIDTH_M
+    from_lens = plus(row(measured.positions, j), seen.lens_in_room, -1.0)
+    half = widened(half_width_in_room(from_lens, seen.rotation_sensor_to_room, box_m), wider_m)
+    return (3 * half[0] ** 2, 3 * half[1] ** 2, 3 * half[2] ** 2)
+
+
+@kernel
+def _begin(joint: Record, position: Vector, measured_m2: Vector) -> None:
+    """Start from a measurement's box alone, at any speed within the bound."""
+    for i in range(6):
+        for k in range(6):
+            joint.shape[i, k] = 0.0
+    for k in range(3):
+        joint.centre[k], joint.centre[3 + k] = position[k], 0.0
+        joint.shape[k, k], joint.shape[3 + k, 3 + k] = 2 * measured_m2[k], 2 * SPEED_MAX**2
+
+
+@kernel
+def _tell(before: Records, from_s: float, t_s: float) -> tuple[Floats, Floats, Floats, States]:
+    """Positions (J, 3), shapes (J, 3, 3), bounds (J,) and states (J,) of the joints moved on to `t_s`."""
+    joints, count = before.copy(), len(before)
+    positions, shape_m2 = np.full((count, 3), np.nan), np.full((count, 3, 3), np.nan)
+    bound_m, states = np.full(count, np.inf), np.empty(count, np.uint8)
+    for j in range(count):
+        joint = joints[j]
+        states[j] = state_of(joint.seen_s, t_s)
+        if isfinite(joint.seen_s):
+            predict(joint, t_s - from_s)
+            alone_s = max(t_s - from_s, 0.0) - seconds_in_motion(joint.seen_s, min(from_s, t_s), t_s)
+            bound_m[j] = _tell_set(joint, max(alone_s, 0.0), positions[j], shape_m2[j])
+    return positions, shape_m2, bound_m, states
+
+
+@kernel
+def _tell_set(joint: Record, alone_s: float, point: Floats, shape_m2: Floats) -> float:
+    """Write the point and the set around it; the farthest point of the set from it.
+
+    For `alone_s` the set moved on and the point did not: the set told is then a ball that holds it.
+    """
+    velocity = joint.centre[3], joint.centre[4], joint.centre[5]
+    bound_m = sqrt(largest_eigenvalue(joint.shape)) + alone_s * length(velocity)
+    for i in range(3):
+        point[i] = joint.centre[i] - alone_s * velocity[i]
+        for k in range(3):
+            ball_m2 = bound_m**2 if i == k else 0.0
+            shape_m2[i, k] = ball_m2 if alone_s > 0 else joint.shape[i, k]
+    return bound_m

@@ -7,6 +7,10 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
+
+from fusion.compiled import Record, kernel, record
+
 HELPER = """
 from fusion.compiled import kernel
 
@@ -85,3 +89,16 @@ def test_where_nothing_can_be_kept_kernels_work_all_the_same(tmp_path: Path) -> 
     (folder / "__pycache__").write_text("no folder")
     nowhere = {"HOME": "/dev/null", "XDG_CACHE_HOME": "/dev/null", "NUMBA_CACHE_DIR": ""}
     assert called_in_a_new_process(folder, **nowhere) == "7 0"
+
+
+def test_a_record_is_not_taken_for_one_that_begins_alike() -> None:
+    """Numba would use what it compiled for the shorter one, and warn, but only if that one came first."""
+    position = ("position", "f8", (3,))
+    for fields in ([position], [position, ("seen_s", "f8")]):
+        assert first_of(np.ones(2, record(fields))[0]) == 1.0
+    assert len(first_of.signatures) == 2
+
+
+@kernel
+def first_of(joint: Record) -> float:
+    return joint.position[0]

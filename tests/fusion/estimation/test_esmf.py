@@ -6,59 +6,76 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fusion.estimation.esmf import Esmf, EsmfState, cut, predict
+from fusion.compiled import Records
+from fusion.estimation.esmf import JOINT, Esmf, cut, predict
+from fusion.estimation.matrices import inverse, largest_eigenvalue
 from fusion.estimation.motion_set import ACCELERATION_MAX
 from fusion.skeleton import JOINT_COUNT
 
 from .scene import FRAME_S, WRIST, both, changed, sample_at
 
 SEEDS = st.integers(0, 2**32 - 1)
-EVERY = np.ones(JOINT_COUNT, bool)
 
 
-def some_state(rng: np.random.Generator) -> EsmfState:
+def some_joints(rng: np.random.Generator) -> Records:
     root = rng.normal(size=(JOINT_COUNT, 6, 6)) * rng.uniform(0.05, 1.0, (JOINT_COUNT, 1, 1))
-    shape = root @ root.swapaxes(1, 2) + 1e-4 * np.eye(6)
-    never, none = np.zeros(JOINT_COUNT), np.full(JOINT_COUNT, np.inf)
-    return EsmfState(0.0, rng.normal(size=(JOINT_COUNT, 6)), shape, never, none, ())
+    joints = np.zeros(JOINT_COUNT, JOINT)
+    joints["shape"] = root @ root.swapaxes(1, 2) + 1e-4 * np.eye(6)
+    joints["centre"] = rng.normal(size=(JOINT_COUNT, 6))
+    return joints
 
 
-def within(rng: np.random.Generator, state: EsmfState) -> np.ndarray:
+def within(rng: np.random.Generator, joints: Records) -> np.ndarray:
     direction = rng.normal(size=(JOINT_COUNT, 6))
     direction *= np.minimum(rng.uniform(0, 2, (JOINT_COUNT, 1)), 1.0) / np.linalg.norm(direction, axis=1)[:, None]
-    return state.centre + np.einsum("jik,jk->ji", np.linalg.cholesky(state.shape), direction)
+    return joints["centre"] + np.einsum("jik,jk->ji", np.linalg.cholesky(joints["shape"]), direction)
 
 
-def depth(state: EsmfState, points: np.ndarray) -> np.ndarray:
-    away = points - state.centre
-    return np.einsum("ji,ji->j", away, np.linalg.solve(state.shape, away[..., None])[..., 0])
+def depth(joints: Records, points: np.ndarray) -> np.ndarray:
+    away = points - joints["centre"]
+    return np.einsum("ji,ji->j", away, np.linalg.solve(joints["shape"], away[..., None])[..., 0])
 
 
 @settings(derandomize=True, max_examples=100, deadline=None)
 @given(seed=SEEDS)
 def test_the_cut_holds_every_point_of_prior_and_measurement(seed: int) -> None:
     rng = np.random.default_rng(seed)
-    state = some_state(rng)
-    points = within(rng, state)
+    joints = some_joints(rng)
+    points = within(rng, joints)
     measured_m2 = rng.uniform(0.01, 1.0, (JOINT_COUNT, 3))
     off = rng.normal(size=(JOINT_COUNT, 3))
     off *= rng.uniform(0, 1, (JOINT_COUNT, 1)) * np.sqrt(measured_m2) / np.linalg.norm(off, axis=1)[:, None]
-    after, met = cut(state, points[:, :3] + off, measured_m2, EVERY)
-    assert met.all()
-    assert (depth(after, points) <= 1 + 1e-6).all()
+    measured = points[:, :3] + off
+    for joint, position, squares in zip(joints, measured.tolist(), measured_m2.tolist(), strict=True):
+        assert cut(joint, tuple(position), tuple(squares))
+    assert (depth(joints, points) <= 1 + 1e-6).all()
+    np.testing.assert_array_equal(joints["shape"], joints["shape"].swapaxes(1, 2))
 
 
 @settings(derandomize=True, max_examples=50, deadline=None)
 @given(seed=SEEDS, dt=st.floats(0.001, 0.5))
 def test_the_prediction_holds_whatever_a_limb_can_do(seed: int, dt: float) -> None:
     rng = np.random.default_rng(seed)
-    state = some_state(rng)
-    points = within(rng, state)
+    joints = some_joints(rng)
+    points = within(rng, joints)
     push = rng.normal(size=(JOINT_COUNT, 3))
     push *= ACCELERATION_MAX / np.linalg.norm(push, axis=1)[:, None]
     moved_m = points[:, :3] + points[:, 3:] * dt + push * dt**2 / 2
-    after = predict(state, dt)
-    assert (depth(after, np.concatenate([moved_m, points[:, 3:] + push * dt], axis=1)) <= 1 + 1e-9).all()
+    for joint in joints:
+        predict(joint, dt)
+    assert (depth(joints, np.concatenate([moved_m, points[:, 3:] + push * dt], axis=1)) <= 1 + 1e-9).all()
+
+
+@settings(derandomize=True, max_examples=50, deadline=None)
+@given(seed=SEEDS)
+def test_the_largest_eigenvalue_and_the_inverse_are_those_of_lapack(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    root = rng.normal(size=(3, 3)) * 10.0 ** rng.uniform(-2, 1, 3)
+    matrix = root @ root.T + 1e-6 * np.eye(3)
+    np.testing.assert_allclose(largest_eigenvalue(matrix), np.linalg.eigvalsh(matrix)[-1], rtol=1e-7)
+    expected = np.linalg.inv(matrix)
+    np.testing.assert_allclose(inverse(matrix), expected, atol=1e-6 * np.abs(expected).max())
+    np.testing.assert_allclose(largest_eigenvalue(2.0 * np.eye(3)), 2.0)
 
 
 def test_the_truth_stays_inside_while_errors_keep_their_box() -> None:

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from fusion.estimation import METHODS
 from fusion.estimation.adaptive import Adaptive
 from fusion.estimation.average import Average
+from fusion.estimation.esmf import Esmf
 from fusion.estimation.estimator import Estimator
 from fusion.estimation.kalman import Kalman
 from fusion.estimation.set_membership import SetMembership
@@ -160,8 +161,10 @@ def test_what_comes_back_after_an_occlusion_is_taken_within_three_frames(make: M
 
 
 @pytest.mark.parametrize("joints", [8, 32])
-@pytest.mark.parametrize("make", [SetMembership, Kalman])
-def test_a_body_may_have_any_number_of_joints(make: type[SetMembership] | type[Kalman], joints: int) -> None:
+@pytest.mark.parametrize("make", [SetMembership, Kalman, Esmf])
+def test_a_body_may_have_any_number_of_joints(
+    make: type[SetMembership] | type[Kalman] | type[Esmf], joints: int
+) -> None:
     """The first 25 are as they are with 25, bone lengths included; what is beyond them has no bones."""
     usual, other = make(), make(joints)
     shared = min(joints, JOINT_COUNT)

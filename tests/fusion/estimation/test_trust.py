@@ -21,7 +21,8 @@ class Sensor:
 
     def __init__(self) -> None:
         self.bones = bones.unknown(JOINT_COUNT)
-        self.words: Records = np.full(JOINT_COUNT, -np.inf, record(trust.FIELDS))
+        self.words: Records = np.zeros(JOINT_COUNT, record(trust.FIELDS))
+        self.words["doubted_s"] = self.words["believed_s"] = -np.inf
 
     def wandering(self, sample: AlignedSample) -> Flags:
         return bones.judge(self.bones.copy(), read(sight(sample, JOINT_COUNT)))
