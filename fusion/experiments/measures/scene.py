@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from copy import deepcopy
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -12,7 +12,7 @@ import numpy as np
 from fusion.align.alignment import SensorAlignment
 from fusion.align.whole import align_streams
 from fusion.errors import RecordingError
-from fusion.messages import Floats, SkeletonSample, States
+from fusion.messages import Floats, FusedFrame, SkeletonSample, States
 from fusion.offline import GRID_HZ
 from fusion.pipeline import Pipeline, PipelineSettings
 from fusion.recording.recording import Recording, SkeletonStream
@@ -40,19 +40,25 @@ class Scene:
 class Told:
     """What a method told at some instants of the grid."""
 
+    t_s: Floats  # (T,)
     positions: Floats  # (T, 25, 3) m; NaN before anything was seen
+    bound_m: Floats  # (T, 25)
     state: States  # (T, 25)
 
 
-def scene_of(recording: Recording) -> Scene:
+def scene_of(recording: Recording, known: Mapping[str, SensorAlignment] | None = None) -> Scene:
     """Align the recording's sensors and put the samples of each one's most seen body in order.
+
+    Args:
+        recording: of at least two sensors.
+        known: the alignments, where somebody knows them; else they are found from the whole recording.
 
     Raises:
         RecordingError: fewer than two sensors can be aligned.
     """
     streams = [stream for stream in recording.skeleton_streams if stream.samples]
     reference = next(stream for stream in streams if stream.primary)
-    found = align_streams(streams, reference.sensor).alignments
+    found = dict(known or align_streams(streams, reference.sensor).alignments)
     if len(found) < 2:
         raise RecordingError(f"recording '{recording.name}' has {len(found)} sensors that can be aligned", "two")
     due = [
@@ -65,6 +71,11 @@ def scene_of(recording: Recording) -> Scene:
     grid = first + np.arange(int((last - first) * GRID_HZ + 1e-6) + 1) / GRID_HZ
     side = recording.healthy_side or Side.RIGHT
     return Scene(recording.name, side, reference.sensor, found, grid, tuple(sorted(due, key=lambda item: item[0])))
+
+
+def only(scene: Scene, sensor: str) -> Scene:
+    """The scene as this sensor alone sees it."""
+    return replace(scene, due=tuple(item for item in scene.due if item[1].sensor == sensor))
 
 
 def told(
@@ -82,18 +93,19 @@ def told(
         The whole course (T instants), and one of `length` instants for every fork, in their order.
     """
     pipeline = Pipeline(PipelineSettings(scene.healthy_side, method, scene.reference, scene.alignments))
-    pipeline.follow(scene.reference, next(s.body for _, s in scene.due if s.sensor == scene.reference))
-    rows: list[tuple[Floats, States]] = []
+    first = next((s for _, s in scene.due if s.sensor == scene.reference), scene.due[0][1])
+    pipeline.follow(first.sensor, first.body)
+    rows: list[FusedFrame | None] = []
     others: dict[int, Told] = {}
     at = 0
     for k, t_s in enumerate(scene.t_s.tolist()):
         for i, (start, what_if) in enumerate(forks):
             if start == k:
                 course = _course(deepcopy(pipeline), scene, at, scene.t_s[k : k + length], what_if)
-                others[i] = _stacked(list(course))
+                others[i] = _stacked(scene.t_s[k : k + length], list(course))
         at = _feed(pipeline, scene, at, t_s)
-        rows.append(_row(pipeline, t_s))
-    return _stacked(rows), tuple(others[i] for i in range(len(forks)))
+        rows.append(_body(pipeline, t_s))
+    return _stacked(scene.t_s, rows), tuple(others[i] for i in range(len(forks)))
 
 
 def seen_alone(scene: Scene, sensor: str) -> tuple[Floats, Floats]:
@@ -119,12 +131,10 @@ def _one_body(stream: SkeletonStream) -> list[SkeletonSample]:
     return [sample for sample in stream.samples if sample.body == most]
 
 
-def _course(
-    pipeline: Pipeline, scene: Scene, at: int, grid: Floats, what_if: WhatIf
-) -> Iterator[tuple[Floats, States]]:
+def _course(pipeline: Pipeline, scene: Scene, at: int, grid: Floats, what_if: WhatIf) -> Iterator[FusedFrame | None]:
     for t_s in grid.tolist():
         at = _feed(pipeline, scene, at, t_s, what_if)
-        yield _row(pipeline, t_s)
+        yield _body(pipeline, t_s)
 
 
 def _feed(pipeline: Pipeline, scene: Scene, at: int, t_s: float, what_if: WhatIf | None = None) -> int:
@@ -138,12 +148,14 @@ def _feed(pipeline: Pipeline, scene: Scene, at: int, t_s: float, what_if: WhatIf
     return at
 
 
-def _row(pipeline: Pipeline, t_s: float) -> tuple[Floats, States]:
-    body = pipeline.step(t_s).fused or pipeline.fused_at(t_s)
-    if body is None:
-        return np.full((JOINT_COUNT, 3), np.nan), np.zeros(JOINT_COUNT, dtype=np.uint8)
-    return body.positions_in_room, body.state
+def _body(pipeline: Pipeline, t_s: float) -> FusedFrame | None:
+    return pipeline.step(t_s).fused or pipeline.fused_at(t_s)
 
 
-def _stacked(rows: list[tuple[Floats, States]]) -> Told:
-    return Told(np.array([positions for positions, _ in rows]), np.array([state for _, state in rows]))
+def _stacked(t_s: Floats, bodies: Sequence[FusedFrame | None]) -> Told:
+    positions, bound_m = np.full((len(t_s), JOINT_COUNT, 3), np.nan), np.full((len(t_s), JOINT_COUNT), np.inf)
+    state = np.zeros((len(t_s), JOINT_COUNT), dtype=np.uint8)
+    for k, body in enumerate(bodies):
+        if body is not None:
+            positions[k], bound_m[k], state[k] = body.positions_in_room, body.bound_m, body.state
+    return Told(t_s, positions, bound_m, state)

@@ -1,0 +1,1 @@
+"""Outcomes as files: pictures, CSV, a page for the browser and one for the documentation."""

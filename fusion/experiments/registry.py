@@ -1,0 +1,31 @@
+"""All experiments by name: every file in `catalogue` is one."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from importlib import import_module
+from pkgutil import iter_modules
+
+from fusion.errors import InputError
+from fusion.experiments import catalogue
+from fusion.experiments.experiment import Experiment
+
+
+def experiments() -> dict[str, Experiment]:
+    """Every experiment, chapter by chapter."""
+    names = [module.name for module in iter_modules(catalogue.__path__)]
+    found = [import_module(f"{catalogue.__name__}.{name}").EXPERIMENT for name in names]
+    return {each.name: each for each in sorted(found, key=lambda each: (each.chapter, each.order, each.name))}
+
+
+def chosen(names: Sequence[str]) -> tuple[Experiment, ...]:
+    """The named experiments in the order of the page; without names all that are made every day.
+
+    Raises:
+        InputError: a name is not known.
+    """
+    known = experiments()
+    for name in names:
+        if name not in known:
+            raise InputError(f"no experiment is called '{name}'", f"one of {', '.join(known)}", "mend the name")
+    return tuple(each for each in known.values() if each.name in names or (not names and not each.only_by_name))
