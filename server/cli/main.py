@@ -18,7 +18,7 @@ from server import __version__
 UNUSABLE = 2
 """Exit code for input or a machine that cannot be used."""
 
-COMMANDS = ("serve", "replay", "fuse", "evaluate", "locate", "arm", "bench", "convert", "doctor")
+COMMANDS = ("serve", "replay", "fuse", "evaluate", "locate", "arm", "experiments", "bench", "convert", "doctor")
 """Each is a function of its name in a module of its name."""
 
 
