@@ -1,20 +1,22 @@
 """A whole recording through the very same pipeline as live, as fast as it goes.
 
 Alignment and clock offsets come first, from the whole recording; then the samples are taken in time order and the body
-is told causally on a steady grid. `causal` shows what happened live instead: alignment learnt on the way.
+is told causally on a steady grid. `causal` shows what happened live instead: samples as they came, alignment learnt on
+the way.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from time import perf_counter
 
 import numpy as np
 
-from fusion.align.alignment import SensorAlignment, reference_alignment
+from fusion.align.alignment import SensorAlignment
 from fusion.align.bodies import trunk_centre
 from fusion.align.whole import Aligned, align_streams
+from fusion.arrival import Due, as_if_equally_quick, as_received, when_taken
 from fusion.errors import InputError, RecordingError
 from fusion.messages import Floats, FusedFrame, JointAngles, MirrorTarget, SkeletonSample, States
 from fusion.pipeline import Pipeline, PipelineSettings
@@ -104,7 +106,9 @@ def fuse_recording(
     if only_sensor is not None:
         _named(recording, only_sensor)
     started = perf_counter()
-    known = None if causal and only_sensor is None else align_streams(list(streams.values()), chosen)
+    live = causal and only_sensor is None
+    whole = None if live and recording.arrivals_known else align_streams(list(streams.values()), chosen)
+    known = None if live else whole
     aligned = perf_counter()
     side = recording.healthy_side or Side.RIGHT
     pipeline = Pipeline(PipelineSettings(side, method, chosen, known.alignments if known else None))
@@ -112,7 +116,7 @@ def fuse_recording(
     first = next((stream for stream in used if stream.sensor == chosen), used[0])
     pipeline.follow(first.sensor, _nearest_at_start(first))
     grid = _grid(streams[chosen])
-    told = list(_run(pipeline, _in_order(used, known, chosen), grid, progress))
+    told = list(_run(pipeline, _due(used, streams[chosen], whole, live), grid, progress))
     timings = Timings(float(grid[-1] - grid[0]), aligned - started, perf_counter() - aligned)
     positions, bound_m, state = _stacked([frame for frame, _, _ in told])
     return FusedRecording(
@@ -181,43 +185,17 @@ def _grid(stream: SkeletonStream) -> Floats:
     return first + np.arange(int((last - first) * GRID_HZ + 1e-6) + 1) / GRID_HZ
 
 
-@dataclass(frozen=True, slots=True)
-class _Due:
-    """A sample and when the pipeline gets it, on the reference's clock."""
-
-    t_s: float
-    sample: SkeletonSample
-
-
-def _in_order(streams: Iterable[SkeletonStream], known: Aligned | None, reference: str) -> list[_Due]:
-    """Samples by aligned time; live, by arrival."""
-    due: list[_Due] = []
-    streams = list(streams)
-    origin = next((stream for stream in streams if stream.sensor == reference), streams[0])
-    for stream in streams:
-        if known is None:
-            shift = _arrival_shift(origin, stream)
-            due += [_Due(s.t_s + shift, replace(s, t_received_s=s.t_s + shift)) for s in stream.samples]
-        else:
-            found = known.alignments.get(stream.sensor, reference_alignment())
-            due += [_Due(s.t_s - found.clock_offset_s, s) for s in stream.samples]
-    return sorted(due, key=lambda item: item.t_s)
-
-
-def _arrival_shift(origin: SkeletonStream, stream: SkeletonStream) -> float:
-    """A recording keeps no receive times: frames arrive at their own.
-
-    Where the clocks share no span, as if both streams had begun together.
-    """
-    a, b = origin.samples, stream.samples
-    apart = b[0].t_s > a[-1].t_s or b[-1].t_s < a[0].t_s
-    return a[0].t_s - b[0].t_s if apart else 0.0
+def _due(used: list[SkeletonStream], origin: SkeletonStream, whole: Aligned | None, live: bool) -> list[Due]:
+    """Samples by aligned time; live, by arrival, which the clocks of the whole recording tell where it does not say."""
+    if whole is None:
+        return as_received(used, origin)
+    return (as_if_equally_quick if live else when_taken)(used, origin, whole)
 
 
 _Told = tuple[FusedFrame | None, JointAngles | None, MirrorTarget | None]
 
 
-def _run(pipeline: Pipeline, due: list[_Due], grid: Floats, progress: Progress | None) -> Iterator[_Told]:
+def _run(pipeline: Pipeline, due: list[Due], grid: Floats, progress: Progress | None) -> Iterator[_Told]:
     """Feed what is due at every instant of the grid and ask for the body."""
     at = 0
     for k, t_s in enumerate(grid.tolist()):
@@ -257,13 +235,17 @@ def _hold(positions: Floats, known: Floats) -> None:
 def _reports(
     pipeline: Pipeline, streams: dict[str, SkeletonStream], known: Aligned | None, reference: str, end_s: float
 ) -> tuple[SensorReport, ...]:
-    refusals, found = pipeline.refusals(), pipeline.alignments()
-    quality = {sensor.sensor: sensor for sensor in pipeline.sensors(end_s)}
+    refusals, quality = pipeline.refusals(), {sensor.sensor: sensor for sensor in pipeline.sensors(end_s)}
+    found = {
+        name: replace(alignment, clock_offset_s=quality[name].clock_offset_s)
+        for name, alignment in pipeline.alignments().items()
+    }
+    alignments = {**found, **known.alignments} if known else found
     return tuple(
         SensorReport(
             sensor=name,
             is_reference=name == reference,
-            alignment=known.alignments.get(name, found.get(name)) if known else found.get(name),
+            alignment=alignments.get(name),
             frames=len(stream.samples),
             refusals=refusals.get(name, {}),
             warnings=known.faults.get(name, ()) if known else quality[name].warnings,

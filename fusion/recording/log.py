@@ -41,6 +41,8 @@ class LogAbout:
     """Name of the reference sensor; "" where it was not known at the start."""
     trouble: str = "[]"
     """JSON list of the trouble that was put into a recording; empty for what was recorded live."""
+    arrivals_known: bool = True
+    """False for what was converted from a form that keeps no receive times."""
 
 
 class PacketEntry(msgspec.Struct, frozen=True, array_like=True):
@@ -172,6 +174,7 @@ def _as_metadata(about: LogAbout) -> dict[str, str]:
         "origin": about.origin,
         "primary": about.primary,
         "trouble": about.trouble,
+        "arrivals": "known" if about.arrivals_known else "",
     }
 
 
@@ -185,6 +188,7 @@ def about_from_metadata(metadata: dict[str, str]) -> LogAbout:
         origin=metadata.get("origin", ""),
         primary=metadata.get("primary", ""),
         trouble=metadata.get("trouble", "[]"),
+        arrivals_known=metadata.get("arrivals", "known") == "known",
     )
 
 

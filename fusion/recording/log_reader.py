@@ -167,6 +167,7 @@ def read_log(path: Path) -> Recording:
         events=_trouble(reader),
         path=path,
         origin=about.origin,
+        arrivals_known=about.arrivals_known,
         imu_streams=tuple(imu_from_block(site, block) for site, block in reader.numbers(IMU).items()),
         orientation_truth=_orientation_truth(reader),
         range_streams=tuple(ranges_from_block(head, block) for head, block in reader.numbers(RANGES).items()),

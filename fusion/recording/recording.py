@@ -96,3 +96,5 @@ class Recording:
     range_streams: tuple[RangeStream, ...] = ()
     imu_streams: tuple[ImuStream, ...] = ()
     orientation_truth: OrientationTruth | None = None
+    arrivals_known: bool = False
+    """Whether `t_received_s` of the samples says when they were received."""

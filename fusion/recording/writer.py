@@ -159,7 +159,8 @@ def _write_table(path: Path, columns: tuple[str, ...], rows: Iterable[tuple[obje
 def _write_log(recording: Recording, path: Path) -> None:
     primary = next((stream.sensor for stream in recording.skeleton_streams if stream.primary), "")
     trouble = msgspec.json.encode(recording.events).decode()
-    about = LogAbout(recording.name, recording.about, recording.healthy_side, recording.origin, primary, trouble)
+    who = (recording.name, recording.about, recording.healthy_side, recording.origin, primary)
+    about = LogAbout(*who, trouble, recording.arrivals_known)
     with LogWriter(path, about) as log:
         for sample in _in_time(recording.skeleton_streams):
             log.sample(sample)

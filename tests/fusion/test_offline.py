@@ -54,6 +54,38 @@ def test_unknown_mounting_and_clock_do_not_show_in_the_body(bodies, recording, c
     assert two.frames == len(TIMES)
 
 
+@pytest.mark.parametrize("causal", [False, True])
+def test_a_recording_gives_the_same_ticks_twice(recording, causal):
+    first, second = (fuse_recording(recording, "set-membership", causal=causal) for _ in range(2))
+    for name in ("t_s", "positions", "bound_m", "state"):
+        np.testing.assert_array_equal(getattr(first, name), getattr(second, name))
+    assert [repr(told) for told in first.healthy] == [repr(told) for told in second.healthy]
+    assert [repr(told) for told in first.target] == [repr(told) for told in second.target]
+    assert any(target is not None and target.valid for target in first.target)
+    assert [sensor.refusals for sensor in first.sensors] == [sensor.refusals for sensor in second.sensors]
+
+
+def blind(recording, from_s, to_s):
+    """The recording without the first sensor's frames between two times."""
+    one, two = recording.skeleton_streams
+    left = tuple(sample for sample in one.samples if not from_s < sample.t_s < to_s)
+    return replace(recording, skeleton_streams=(replace(one, samples=left), two))
+
+
+def test_live_a_clock_that_is_off_costs_nothing_and_late_frames_their_lateness(bodies, recording):
+    """While the first sensor sees nothing, the body is told from the second one's latest frame."""
+    gap = slice(int(5.3 * 30), int(6.3 * 30))
+    recording = blind(recording, 5.0, 6.5)
+    by_stamps = fuse_recording(recording, "kalman", causal=True)
+    assert np.median(hand_errors(bodies, by_stamps)[gap]) < 0.02
+    one, two = recording.skeleton_streams
+    late = replace(two, samples=tuple(replace(s, t_received_s=s.t_s - OFFSET_S + 0.2) for s in two.samples))
+    came = fuse_recording(replace(recording, skeleton_streams=(one, late), arrivals_known=True), "kalman", causal=True)
+    told = hand_errors(bodies, came)[gap]
+    assert 0.03 < np.median(told) < 0.3
+    assert np.median(hand_errors(bodies, came, moved_s=0.2)[gap]) < np.median(told)
+
+
 def test_the_other_sensor_as_reference_gives_its_frame_and_clock(bodies, recording):
     fused = fuse_recording(recording, "kalman", reference="two")
     in_two = bodies.seen(TURN, np.array(PLACE), np.array([bodies.body_at(t - OFFSET_S) for t in fused.t_s]))
