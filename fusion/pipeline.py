@@ -9,7 +9,7 @@ import numpy as np
 
 from fusion.align.alignment import SensorAlignment, reference_alignment
 from fusion.align.bodies import Expected, Verdict, trunk_centre
-from fusion.align.identity import PatientFinder
+from fusion.align.identity import BodyInView, PatientFinder
 from fusion.align.learner import EVERY_S
 from fusion.align.mend import Mending, SideKeeper
 from fusion.align.watch import SensorWatch
@@ -128,6 +128,10 @@ class Pipeline:
         """The body at `t_s`, however long nobody has seen it; None before the first sample."""
         newest_s = self._body.newest_s
         return None if newest_s is None else self._body.frame(max(t_s + self.lead_s, newest_s))
+
+    def bodies(self, t_s: float) -> tuple[BodyInView, ...]:
+        """Everybody whom a sensor sees now, the patient included, on the receive clock."""
+        return self._patient.bodies(t_s)
 
     def sensors(self, t_s: float) -> tuple[SensorQuality, ...]:
         """How each sensor does."""

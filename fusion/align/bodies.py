@@ -31,7 +31,8 @@ BESIDE_S: Final = 0.1
 """Two bodies seen within this time are two people."""
 VISIBLE_S: Final = 0.3
 LOOK_AROUND_S: Final = 0.1
-"""A sensor that starts is watched this long before its nearest body is chosen."""
+"""A sensor in which nobody is followed is watched this long before one of its bodies is chosen: they come one by one,
+and the patient's own number may be the next. Where another sensor sees the patient, there is no need to wait."""
 REACH_M, SPEED_M_S, FURTHEST_M = 0.5, 2.0, 1.5
 """How far from where the patient was somebody may be and still be the patient; grows with time up to the furthest."""
 UNKNOWN_AFTER_S: Final = 4.0
@@ -94,7 +95,6 @@ class Sighting:
 class BodiesInView:
     """One sensor's bodies and which of them is followed."""
 
-    since_s: float
     seen: dict[str, Sighting] = field(default_factory=dict)
     others: set[str] = field(default_factory=set)
     """Bodies that were seen beside the followed one, or had other bones."""
@@ -104,6 +104,9 @@ class BodiesInView:
     """Whether a person said so."""
     patient: Signature = field(default_factory=Signature.unknown)
     _misfit_since_s: float | None = None
+    _looking_since_s: float = -np.inf
+    """Since when anybody has been in view."""
+    _heard_s: float = -np.inf
 
     def confirm(self, body: str) -> None:
         """A person's choice: this body's bones are the patient's."""
@@ -134,6 +137,9 @@ class BodiesInView:
         centre = trunk_centre(sample.positions_in_sensor, sample.state)
         if isnan(centre[0]):
             return Verdict.UNSEEN
+        if t_s - self._heard_s > VISIBLE_S:
+            self._looking_since_s = t_s
+        self._heard_s = t_s
         sighting = self._remember(sample, t_s, centre)
         if sighting.body == self.followed:
             self._watch_bones(sighting)
@@ -219,7 +225,8 @@ class BodiesInView:
         able = [seen for seen in self.visible(t_s) if seen.body not in self.others and self._fits(seen)]
         if expected is not None:
             able = [seen for seen in able if expected.admits(seen.centre_in_sensor)]
-        elif t_s - self.since_s < LOOK_AROUND_S:
+        sure = expected is not None and expected.age_s < ALIVE_S
+        if not sure and t_s - self._looking_since_s < LOOK_AROUND_S:
             return None
         origin = np.zeros(3) if expected is None else expected.centre_in_sensor
         return _nearest(able, origin) if able else None

@@ -11,8 +11,6 @@ from dataclasses import dataclass
 from math import dist
 from typing import Final
 
-import numpy as np
-
 from fusion.align.bodies import FITS, BodiesInView, Verdict, WhereExpected
 from fusion.messages import Floats, SkeletonSample
 
@@ -59,7 +57,7 @@ class PatientFinder:
         for view in self._views.values():
             view.follow_anew()
         self._places.clear()
-        self._views.setdefault(sensor, BodiesInView(-np.inf)).confirm(body)
+        self._views.setdefault(sensor, BodiesInView()).confirm(body)
 
     def begin_session(self) -> None:
         """Another patient may come: who stood beside the last one may be the next."""
@@ -94,7 +92,7 @@ class PatientFinder:
             t_s: its time on the receive clock.
             expected: where the patient should be; asked only where somebody has to be chosen or refused.
         """
-        return self._views.setdefault(sample.sensor, BodiesInView(t_s)).judge(sample, t_s, expected)
+        return self._views.setdefault(sample.sensor, BodiesInView()).judge(sample, t_s, expected)
 
     def agrees(self, sensor: str, t_s: float, centre_in_room: Floats, expected: WhereExpected) -> bool:
         """Whether a sensor's patient is where every surer sensor sees theirs.
