@@ -18,7 +18,6 @@ from fusion.joined.multilateration import robust_position
 from fusion.messages import Floats, PositionSample
 
 MEMORY_S: Final = 60.0
-EVERY_S: Final = 0.1
 FADE_AT_MOST_S: Final = 1.0
 """Nothing is forgotten while cameras see nothing."""
 LEAST_SAMPLES: Final = 30.0
@@ -66,7 +65,7 @@ def unknown(links: int = 0) -> AnchorFrame:
 
 def learn(frame: AnchorFrame, t_s: float, pelvis_in_room: Floats, lately: Lately) -> AnchorFrame:
     """Take one instant at which cameras saw the pelvis (3,)."""
-    if not lately or t_s < frame.t_s + EVERY_S:
+    if not lately:
         return frame
     if len(frame.bias_m) != len(lately[-1].anchors):
         frame = unknown(len(lately[-1].anchors))
@@ -122,16 +121,15 @@ def _judged(frame: AnchorFrame, pelvis: Floats, lately: Lately) -> AnchorFrame:
 
 
 def _place(frame: AnchorFrame, found: Mounting, lately: Lately) -> Floats:
-    """From the ranges with their biases taken off where there are any, each link's median lately; else as told."""
+    """From the ranges with their biases taken off where there are any, each link's mean lately; else as told."""
     start: Floats = found.rotation @ lately[-1].position_in_anchors + found.translation_m
     if not len(frame.bias_m):
         return start
     ranges = np.array([sample.range_m for sample in lately])
-    there = np.isfinite(ranges).any(axis=0)
-    median = np.full(len(frame.bias_m), np.nan)
-    median[there] = np.nanmedian(ranges[:, there], axis=0)
+    there = np.isfinite(ranges)
+    mean = np.where(there, ranges, 0.0).sum(axis=0) / np.where(there.any(axis=0), there.sum(axis=0), np.nan)
     sigma_m = np.maximum(1.25 * frame.deviation_m, LEAST_STD_M)
-    return robust_position(_anchors_in_room(found, lately[-1].anchors), median - frame.bias_m, sigma_m, start)
+    return robust_position(_anchors_in_room(found, lately[-1].anchors), mean - frame.bias_m, sigma_m, start)
 
 
 def _anchors_in_room(found: Mounting, anchors: Floats) -> Floats:

@@ -8,8 +8,9 @@ heading its own), R from that earth into the room, and b is the bone in the sens
     R = the rotation nearest to Σ v (q b)'   (Wahba's problem)
 
 Both need only the sums Σ v ⊗ q, so the fit is recursive and forgets: R follows the heading's drift. |b| is the bone's
-length; noise of the cameras does not lengthen it, as it averages vectors. How well (R, b) are known comes from
-Fisher's information of the same samples, so poses never seen have wide bounds.
+length; noise of the cameras does not lengthen it, as it averages vectors. How well (R, b) are known is Fisher's
+information of the same samples, from Σ q ⊗ q at the newest fit, so poses never seen have wide bounds. (Summed up as
+samples came, each at the fit of its time, it would believe in what only changed fits had shown.)
 """
 
 from __future__ import annotations
@@ -26,10 +27,8 @@ from fusion.messages import Floats
 Flags = NDArray[np.bool_]
 
 MEMORY_S: Final = 40.0
-EVERY_S: Final = 0.1
-"""Cameras' errors last for a third of a second: more often tells nothing new."""
 CORRELATED: Final = 4.0
-"""So many samples count as one."""
+"""So many samples, at ten a second, count as one."""
 LEAST_SAMPLES: Final = 30.0
 SOLVE_EVERY_S: Final = 0.5
 FADE_AT_MOST_S: Final = 1.0
@@ -50,6 +49,8 @@ UP_IN_EARTH: Final = np.array([0.0, 0.0, 1.0])
 UP_WEIGHT: Final = 0.5
 """What up is worth in the fit, in m²: as five samples of an upper arm."""
 ROUNDS: Final = 6
+LEVI_CIVITA: Final = -skew(np.eye(3))
+"""(w × x)_i = Σ ε_ikm w_k x_m."""
 _UPRIGHT: Final = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
 _HEADINGS: Final = np.stack(
     [np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]]) @ _UPRIGHT for c, s in ((1, 0), (0, 1), (-1, 0), (0, -1))]
@@ -66,11 +67,10 @@ class Attitude:
     sums: Floats  # (B, 3, 3, 3) Σ v_i q_jk
     squares: Floats  # (B,) Σ |v|²
     count: Floats  # (B,) faded number of samples
-    information: Floats  # (3 + 3 B, 3 + 3 B) of a turn in the room, and of the bones in the sensor; noise of 1 m
+    turns: Floats  # (B, 3, 3, 3, 3) Σ q_ij q_kl
     earth_to_room: Floats  # (3, 3) R
     bones: Floats  # (B, 3) m in the sensor
-    noise_m: float
-    """Standard deviation of what is left, per axis."""
+    covariance: Floats  # (3 + 3 B, 3 + 3 B) of a turn of the earth (rad) and of the bones (m)
 
     @property
     def known(self) -> bool:
@@ -80,17 +80,16 @@ class Attitude:
 
 def unknown(bones: int) -> Attitude:
     """Before anything was seen."""
-    size = 3 + 3 * bones
     return Attitude(
         -np.inf,
         -np.inf,
         np.zeros((bones, 3, 3, 3)),
         np.zeros(bones),
         np.zeros(bones),
-        np.zeros((size, size)),
+        np.zeros((bones, 3, 3, 3, 3)),
         _UPRIGHT,
         np.zeros((bones, 3)),
-        LEAST_STD_M,
+        np.diag(1 / _prior(bones)),
     )
 
 
@@ -104,7 +103,7 @@ def learn(attitude: Attitude, t_s: float, sensor_to_earth: Floats, vectors: Floa
         vectors: (B, 3) m, from each bone's parent to its child in the room.
         seen: (B,) whether cameras saw both ends.
     """
-    if not seen.any() or t_s < attitude.t_s + EVERY_S:
+    if not seen.any():
         return attitude
     keep = float(np.exp(-min(t_s - attitude.t_s, FADE_AT_MOST_S) / MEMORY_S))
     vectors = np.where(seen[:, None], vectors, 0.0)
@@ -114,7 +113,7 @@ def learn(attitude: Attitude, t_s: float, sensor_to_earth: Floats, vectors: Floa
         sums=keep * attitude.sums + vectors[:, :, None, None] * sensor_to_earth,
         squares=keep * attitude.squares + np.sum(vectors**2, axis=1),
         count=keep * attitude.count + seen,
-        information=keep * attitude.information + _information(attitude, sensor_to_earth, seen),
+        turns=keep * attitude.turns + np.multiply.outer(seen, np.multiply.outer(sensor_to_earth, sensor_to_earth)),
     )
     return _solved(taken) if t_s >= attitude.solved_s + SOLVE_EVERY_S else taken
 
@@ -130,33 +129,40 @@ def tolerances_m(attitude: Attitude, sensor_to_earth: Floats, t_s: float) -> Flo
 
     Three standard deviations of what (R, b) leave open in this pose; and skin and drift, as a share of the length.
     """
-    variance = attitude.noise_m**2 * CORRELATED
-    covariance = variance * np.linalg.inv(attitude.information + variance * np.diag(_prior(len(attitude.bones))))
     rows = _jacobians(attitude, sensor_to_earth)
-    spread = np.linalg.eigvalsh(rows @ covariance @ rows.transpose(0, 2, 1))[:, -1]
+    spread = np.linalg.eigvalsh(rows @ attitude.covariance @ rows.transpose(0, 2, 1))[:, -1]
     drift_rad = SKIN_RAD + DRIFT_RAD_S * max(t_s - attitude.t_s, 0.0)
     tolerances: Floats = SIGMAS * np.sqrt(spread) + drift_rad * np.linalg.norm(attitude.bones, axis=1)
     return tolerances
 
 
-def _information(attitude: Attitude, sensor_to_earth: Floats, seen: Flags) -> Floats:
-    rows = _jacobians(attitude, sensor_to_earth)[seen]
-    return np.asarray(np.einsum("bip,biq->pq", rows, rows))
-
-
 def _jacobians(attitude: Attitude, sensor_to_earth: Floats) -> Floats:
-    """(B, 3, 3 + 3 B) of v by a turn ε in the room, −[v]×, and by b, R q."""
+    """(B, 3, 3 + 3 B) of v by a turn of the earth, −R [q b]×, and by the bone, R q."""
     count = len(attitude.bones)
     rows = np.zeros((count, 3, 3 + 3 * count))
-    rows[:, :, :3] = -skew(vectors_in_room(attitude, sensor_to_earth))
+    rows[:, :, :3] = -attitude.earth_to_room @ skew(attitude.bones @ sensor_to_earth.T)
     for bone in range(count):
         rows[bone, :, 3 + 3 * bone : 6 + 3 * bone] = attitude.earth_to_room @ sensor_to_earth
     return rows
 
 
+def _covariance(attitude: Attitude, bones: Floats, noise_m: float) -> Floats:
+    """Inverse of Σ J'J / σ² and prior, with w = q b: Σ (|w|² 1 − w w') of the turn, n 1 of a bone, Σ [w]× q mixed."""
+    count = len(bones)
+    information = np.zeros((3 + 3 * count, 3 + 3 * count))
+    spread = np.einsum("bijkl,bj,bl->ik", attitude.turns, bones, bones)
+    information[:3, :3] = np.trace(spread) * np.eye(3) - spread
+    for bone, (turns, vector) in enumerate(zip(attitude.turns, bones, strict=True)):
+        own = slice(3 + 3 * bone, 6 + 3 * bone)
+        information[:3, own] = np.einsum("ikm,kjml,j->il", LEVI_CIVITA, turns, vector)
+        information[own, :3] = information[:3, own].T
+        information[own, own] = attitude.count[bone] * np.eye(3)
+    return np.asarray(np.linalg.inv(information / (noise_m**2 * CORRELATED) + np.diag(_prior(count))))
+
+
 def _prior(bones: int) -> Floats:
     """(3 + 3 B,) information before any sample: a small tilt, any heading, a bone no longer than bones are."""
-    turn = np.array([UP_STD_RAD, np.pi, UP_STD_RAD])
+    turn = np.array([UP_STD_RAD, UP_STD_RAD, np.pi])
     return np.concatenate([turn, np.full(3 * bones, UNLEARNT_BONE_M)]) ** -2.0
 
 
@@ -173,7 +179,13 @@ def _solved(attitude: Attitude) -> Attitude:
     best = int(np.argmax(fit))
     left = attitude.squares.sum() - np.sum(attitude.count[:, None] * bones[best] ** 2)
     noise_m = max(float(np.sqrt(max(left, 0.0) / (3 * attitude.count.sum()))), LEAST_STD_M)
-    return replace(attitude, solved_s=attitude.t_s, earth_to_room=turns[best], bones=bones[best], noise_m=noise_m)
+    return replace(
+        attitude,
+        solved_s=attitude.t_s,
+        earth_to_room=turns[best],
+        bones=bones[best],
+        covariance=_covariance(attitude, bones[best], noise_m),
+    )
 
 
 def _nearest_rotations(matrices: Floats) -> Floats:

@@ -26,6 +26,8 @@ from fusion.joined.relations import Attitudes
 from fusion.messages import AlignedSample, FusedFrame, Refusal
 from fusion.skeleton import INDEX, TrackingState
 
+LEARN_EVERY_S: Final = 0.1
+"""Cameras' errors last for a third of a second: more often tells nothing new."""
 PELVIS: Final = INDEX["SpineBase"]
 
 
@@ -37,6 +39,7 @@ class JoinedState:
     attitudes: Attitudes
     anchors: AnchorFrame
     anatomy: Anatomy
+    learnt_s: float
 
 
 class Joined(Estimator):
@@ -54,16 +57,13 @@ class Joined(Estimator):
         self._cameras, self._evidence, self._with_anatomy = make(), evidence, with_anatomy
         self._attitudes: Attitudes = {}
         self._anchors, self._anatomy = anchors.unknown(), anatomy.unknown()
+        self._learnt_s = float("-inf")
 
     def update(self, sample: AlignedSample) -> tuple[Refusal, ...]:
         """Take a camera's sample, and learn from it how the other sensors sit."""
         refused = self._cameras.update(sample)
-        frame = self._cameras.frame(sample.t_s)
-        self._attitudes = relations.learn(self._attitudes, self._evidence, frame)
-        self._anatomy = anatomy.learn(self._anatomy, frame)
-        if frame.state[PELVIS] == TrackingState.TRACKED:
-            lately = self._evidence.tag(frame.t_s)
-            self._anchors = anchors.learn(self._anchors, frame.t_s, frame.positions_in_room[PELVIS], lately)
+        if sample.t_s >= self._learnt_s + LEARN_EVERY_S:
+            self._learn(self._cameras.frame(sample.t_s))
         return refused
 
     def frame(self, t_s: float) -> FusedFrame:
@@ -75,7 +75,7 @@ class Joined(Estimator):
 
     def snapshot(self) -> object:
         """The estimator's state."""
-        return JoinedState(self._cameras.snapshot(), self._attitudes, self._anchors, self._anatomy)
+        return JoinedState(self._cameras.snapshot(), self._attitudes, self._anchors, self._anatomy, self._learnt_s)
 
     def restore(self, snapshot: object) -> None:
         """Go back to an earlier state."""
@@ -83,6 +83,16 @@ class Joined(Estimator):
             raise TypeError(f"a snapshot of {self.name} is a JoinedState, not {type(snapshot).__name__}")
         self._cameras.restore(snapshot.cameras)
         self._attitudes, self._anchors, self._anatomy = snapshot.attitudes, snapshot.anchors, snapshot.anatomy
+        self._learnt_s = snapshot.learnt_s
+
+    def _learn(self, told: FusedFrame) -> None:
+        """Hold the other sensors against the body that cameras alone tell."""
+        self._learnt_s = told.t_s
+        self._attitudes = relations.learn(self._attitudes, self._evidence, told)
+        self._anatomy = anatomy.learn(self._anatomy, told)
+        if told.state[PELVIS] == TrackingState.TRACKED:
+            lately = self._evidence.tag(told.t_s)
+            self._anchors = anchors.learn(self._anchors, told.t_s, told.positions_in_room[PELVIS], lately)
 
     def _places(self, t_s: float) -> tuple[Place, ...]:
         found = anchors.in_room(self._anchors, self._evidence.tag(t_s), t_s)

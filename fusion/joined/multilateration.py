@@ -8,7 +8,7 @@ import numpy as np
 
 from fusion.messages import Floats
 
-ROUNDS: Final = 12
+ROUNDS: Final = 8
 TOO_LONG: Final = 1.5
 """In deviations: what is in the way only lengthens a range, so a longer one is doubted soon."""
 TOO_SHORT: Final = 3.0

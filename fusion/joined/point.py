@@ -7,7 +7,7 @@ last, weakly: what nobody sees comes along with what is seen.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
@@ -37,30 +37,31 @@ def solve(told: Floats, bound_m: Floats, offsets: Sequence[Offset], places: Sequ
     known: Flags = np.asarray(np.isfinite(told).all(axis=1))
     start = np.where(known[:, None], told, 0.0)
     weight = np.where(known, (BOUND_SIGMAS / bound_m) ** 2, 0.0)
-    matrix, right = np.diag(weight), np.zeros((JOINT_COUNT, 3))
-    for a, b, vector, std_m in _bones(start, known, offsets):
-        share = std_m**-2
-        matrix[[a, b], [a, b]] += share
-        matrix[[a, b], [b, a]] -= share
-        left = share * (vector - start[b] + start[a])
-        right[b] += left
-        right[a] -= left
+    matrix, right = np.diag(weight + np.where(known, 0.0, 1.0)), np.zeros((JOINT_COUNT, 3))
+    ends, vectors, std_m = _bones(start, known, offsets)
+    apart = np.zeros((len(ends), JOINT_COUNT))  # apart @ x is every child less its parent
+    rows = np.arange(len(ends))
+    apart[rows, ends[:, 1]], apart[rows, ends[:, 0]] = 1.0, -1.0
+    weighted = apart.T / std_m**2
+    matrix += weighted @ apart
+    right += weighted @ (vectors - apart @ start)
     for place in places:
         share = (BOUND_SIGMAS / place.tolerance_m) ** 2
         matrix[place.joint, place.joint] += share
         right[place.joint] += share * (place.position - start[place.joint])
-    matrix[~known, ~known] += 1.0
     covariance = np.linalg.inv(matrix)
     moved = start + covariance @ right
     return np.where(known[:, None], moved, np.nan), np.sqrt(np.diagonal(covariance))
 
 
-def _bones(start: Floats, known: Flags, offsets: Sequence[Offset]) -> Iterator[tuple[int, int, Floats, float]]:
-    """Every bone between joints that are known: its ends, vector and standard deviation."""
-    measured = {(offset.parent, offset.child): offset for offset in offsets}
-    for a, b in BONE_INDICES.tolist():
-        if known[a] and known[b] and (a, b) not in measured:
-            yield a, b, start[b] - start[a], COMES_ALONG_STD_M
-    for (a, b), offset in measured.items():
-        if known[a] and known[b]:
-            yield a, b, offset.offset, offset.tolerance_m / TOLERANCE_SIGMAS
+def _bones(start: Floats, known: Flags, offsets: Sequence[Offset]) -> tuple[NDArray[np.int64], Floats, Floats]:
+    """Every bone between joints that are known: (N, 2) its ends, (N, 3) vector and (N,) standard deviation.
+
+    The skeleton's own bones are among them even where an inertial sensor tells the vector: so weak a word does no harm.
+    """
+    ends = np.concatenate([BONE_INDICES, np.array([(o.parent, o.child) for o in offsets], np.int64).reshape(-1, 2)])
+    told = start[BONE_INDICES[:, 1]] - start[BONE_INDICES[:, 0]]
+    vectors = np.concatenate([told, np.array([o.offset for o in offsets]).reshape(-1, 3)])
+    std_m = [o.tolerance_m / TOLERANCE_SIGMAS for o in offsets]
+    both = known[ends].all(axis=1)
+    return ends[both], vectors[both], np.array([COMES_ALONG_STD_M] * len(told) + std_m)[both]
