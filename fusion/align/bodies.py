@@ -112,8 +112,7 @@ class BodiesInView:
         """A person's choice: this body's bones are the patient's."""
         self._follow(body, -np.inf, confirmed=True)
         self.others.clear()
-        sighting = self.seen.get(body)
-        self.patient = sighting.build if sighting else Signature.unknown()
+        self.patient = self._build(body)
 
     def follow_anew(self) -> None:
         """Another sensor's body was chosen by a person: find the same one here, whoever it is."""
@@ -127,9 +126,10 @@ class BodiesInView:
         self.patient = Signature.unknown()
 
     def prefer(self, body: str, t_s: float) -> None:
-        """Follow this body: it moves like the patient in the reference."""
+        """Follow this body: it moves like the patient in the reference. What was learnt of another one is forgotten."""
         if body != self.followed:
             self._follow(body, t_s)
+            self.patient = self._build(body)
             self.others.discard(body)
 
     def judge(self, sample: SkeletonSample, t_s: float, expected: WhereExpected) -> Verdict:
@@ -173,6 +173,12 @@ class BodiesInView:
         """Everybody seen of late."""
         return [seen for seen in self.seen.values() if t_s - seen.t_s < VISIBLE_S]
 
+    def verdict_now(self, seen: Sighting) -> Verdict:
+        """What a body is taken for; another may have been chosen since it was last seen."""
+        if seen.body == self.followed:
+            return Verdict.PATIENT
+        return Verdict.WAITING if seen.verdict is Verdict.PATIENT else seen.verdict
+
     # --- the steps
 
     def _follow(self, body: str | None, since_s: float, confirmed: bool = False) -> None:
@@ -180,6 +186,10 @@ class BodiesInView:
         self._misfit_since_s = None
         if body is not None:
             self.others.discard(body)
+
+    def _build(self, body: str) -> Signature:
+        sighting = self.seen.get(body)
+        return sighting.build if sighting else Signature.unknown()
 
     def _remember(self, sample: SkeletonSample, t_s: float, centre: Floats) -> Sighting:
         """Note where a body is and how it is built; a number that went to somebody else begins anew."""

@@ -78,7 +78,11 @@ class PatientFinder:
         """Everybody in view at `t_s` (receive clock), the patient included."""
         return tuple(
             BodyInView(
-                sensor, seen.body, seen.centre_in_sensor, seen.verdict, view.confirmed and seen.body == view.followed
+                sensor,
+                seen.body,
+                seen.centre_in_sensor,
+                view.verdict_now(seen),
+                view.confirmed and seen.body == view.followed,
             )
             for sensor, view in self._views.items()
             for seen in view.visible(t_s)

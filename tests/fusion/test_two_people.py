@@ -19,7 +19,7 @@ PAUSE_S = 1.0
 
 @pytest.fixture(scope="module")
 def told(recordings):
-    """The body after every frame, and whose numbers aligned sensors took for the patient's; aligned before, or on the way."""
+    """The body after every frame, and the numbers that aligned sensors took for the patient's."""
     recording = read_recording(recordings / TWO)
     streams = recording.skeleton_streams
     reference = next(stream.sensor for stream in streams if stream.primary)
