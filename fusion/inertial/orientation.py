@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +18,10 @@ from vqf import VQF, offlineVQF
 from fusion.errors import InputError
 from fusion.geometry import Floats
 
-LONGEST_GAP_S = 0.2
+GRAVITY_M_S2: Final = 9.81
+CARRIED_TAU_S: Final = 12.0
+"""Time constant of the tilt for a sensor that is carried about; VQF's own is 3 s."""
+LONGEST_GAP_S: Final = 0.2
 """A turn during a longer gap is anybody's guess."""
 
 
@@ -89,6 +93,18 @@ def _at(imu: Inertial, clock_s: Floats) -> Inertial:
 
     magnet = None if imu.magnet_ut is None else column(imu.magnet_ut)
     return Inertial(imu.site, clock_s, column(imu.gyro_rad_s), column(imu.accel_m_s2), magnet)
+
+
+def carried(imu: Inertial) -> Floats:
+    """Acceleration in a level earth frame of its own heading, freed of gravity, causal: (T, 3) m/s².
+
+    Of somebody who walks about: pulling the tilt towards the measured force as fast as a limb's sensor wants it would
+    take every start and every bend for a tilt, and lose the acceleration that is sought.
+    """
+    gyro, accel = np.ascontiguousarray(imu.gyro_rad_s), np.ascontiguousarray(imu.accel_m_s2)
+    found = VQF(_step_s(imu), tauAcc=CARRIED_TAU_S).updateBatch(gyro, accel)
+    level: Floats = Rotation.from_quat(found["quat6D"], scalar_first=True).apply(accel)
+    return level - [0.0, 0.0, GRAVITY_M_S2]
 
 
 def orient(imu: Inertial, causal: bool = False) -> Oriented:

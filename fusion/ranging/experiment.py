@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
 
 from fusion.messages import Floats
+from fusion.ranging.calibration import Calibration
+from fusion.ranging.links import unknown_links
+from fusion.ranging.locate import locate
 from fusion.ranging.paper import least_squares_position, standing, stepped
+from fusion.ranging.pushes import integrated
+from fusion.ranging.ranges import Ranges
 
 ANCHORS: Final = np.array([[0.0, 0.0, 1.0], [0.0, 2.7, 1.0], [2.7, 0.0, 1.0]])
 """A, B above and C to the right of it, as in the paper's fig. 3; the distances are ours."""
@@ -26,11 +31,16 @@ SQUARE_M: Final = 2.4
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """One run: where the tag was, and where radio alone and the joined method put it, (T, 3) m each."""
+    """One run: where the tag was, and where each method put it, (T, 3) m each."""
 
+    t_s: Floats  # (T,)
     truth: Floats
     radio_alone: Floats
+    """Least squares of all three ranges, instant by instant."""
     joined: Floats
+    """The paper's rule as methods.md §9 restates it."""
+    mended: Floats
+    """The same evidence joined by honest variances: what `locate` does."""
 
 
 def somebody_walks_around(seed: int, lap_s: float = 20.0, radius_m: float = 0.8) -> Outcome:
@@ -65,17 +75,30 @@ def _square(speed_m_s: float) -> Floats:
 def _run(truth: Floats, person: Floats, seed: int) -> Outcome:
     rng = np.random.default_rng(seed)
     dt_s = 1 / RATE_HZ
+    t_s = np.linspace(0.0, dt_s * (len(truth) - 1), len(truth))
     range_m = _ranges(truth, person, rng)
     acceleration = np.gradient(np.gradient(truth, dt_s, axis=0), dt_s, axis=0)
     acceleration += rng.normal(0, ACCEL_SIGMA_M_S2, truth.shape) + ACCEL_BIAS_M_S2 * rng.uniform(-1, 1, 3)
     acceleration[:, 2] = 0.0
-    state = standing(truth[0])
-    alone, together = np.empty_like(truth), np.empty_like(truth)
-    for i, (ranges, accel) in enumerate(zip(range_m, acceleration, strict=True)):
-        alone[i] = least_squares_position(ANCHORS, ranges, MIDDLE)
+    alone = np.array([least_squares_position(ANCHORS, ranges, MIDDLE) for ranges in range_m])
+    joined = _by_the_paper(truth[0], range_m, acceleration, dt_s)
+    return Outcome(t_s, truth, alone, joined, _mended(t_s, range_m, acceleration))
+
+
+def _by_the_paper(start: Floats, range_m: Floats, acceleration: Floats, dt_s: float) -> Floats:
+    state, found = standing(start), []
+    for ranges, accel in zip(range_m, acceleration, strict=True):
         state = stepped(state, ANCHORS, ranges, RANGE_SIGMA_M, accel, dt_s)
-        together[i] = state.position
-    return Outcome(truth, alone, together)
+        found.append(state.position)
+    return np.array(found)
+
+
+def _mended(t_s: Floats, range_m: Floats, acceleration: Floats) -> Floats:
+    """The heading is known, as the paper's sensors have a magnetometer and its anchors the same axes."""
+    links = replace(unknown_links(len(ANCHORS), 1), sigma_m=RANGE_SIGMA_M, coherence_s=1e-3, wander_m=0.0)
+    pushes = integrated(t_s, acceleration, heading_rad=0.0)
+    ranges = Ranges(ANCHORS, t_s, range_m[:, :, None])
+    return locate(ranges, Calibration(links), float(MIDDLE[2]), inertial=[pushes]).positions[:, 0]
 
 
 def _ranges(truth: Floats, person: Floats, rng: np.random.Generator) -> Floats:  # (T, 3)

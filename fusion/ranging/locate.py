@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Final
 
@@ -12,9 +12,10 @@ from numpy.typing import NDArray
 from fusion.errors import InputError
 from fusion.messages import Floats
 from fusion.ranging.calibration import Calibration
-from fusion.ranging.filter import RigState, pointed, predicted, started, tag_covariances, updated
+from fusion.ranging.filter import RigState, pointed, predicted, started, tag_covariances, updated, with_sensor
 from fusion.ranging.links import LinkModel
 from fusion.ranging.multilateration import solve_position
+from fusion.ranging.pushes import Pushes
 from fusion.ranging.ranges import Ranges
 from fusion.ranging.rig import SINGLE, Rig
 
@@ -23,6 +24,9 @@ START_MEMORY_S: Final = 0.3
 """A start takes ranges that are no older: links are asked one after the other."""
 PATIENCE_S: Final = 0.5
 """After so long without a range that fits, the filter is wrong, not the ranges: it starts again."""
+PROBATION_S: Final = 0.3
+"""A link whose range did not fit is not believed for so long: of the ranges that an obstacle lengthens by this much and
+that, those that happen to fit are too long as well."""
 RETRY_S: Final = 0.1
 """A start tries many sets of anchors; where none agrees, the next instant's ranges are nearly the same."""
 SIGHT_MEMORY_S: Final = 1.0
@@ -64,6 +68,7 @@ def locate(
     calibration: Calibration,
     height_m: float | None = None,
     progress: Callable[[float], None] = lambda share: None,
+    inertial: Sequence[Pushes | None] | None = None,
 ) -> Track:
     """Locate every tag, causally.
 
@@ -72,6 +77,7 @@ def locate(
         calibration: what is known of the links; its rig joins the tags, without one each goes alone.
         height_m: of the tags, where the anchors lie in one plane.
         progress: told the share that is done.
+        inertial: per tag the sensor that sits beside it, where there is one.
 
     Raises:
         InputError: the anchors cannot tell where a tag is.
@@ -83,7 +89,10 @@ def locate(
     for number, group in enumerate(groups):
         progress(number / len(groups))
         rig = calibration.rig or SINGLE
-        tracks.append(_Follower(ranges.of_tags(group), rig, _of_tags(calibration.links, group), height_m).track())
+        beside = next((inertial[k] for k in group if inertial[k]), None) if inertial else None
+        pushed = None if beside is None else replace(beside, t_s=beside.t_s - calibration.lag_s)  # the ranges' clock
+        links = _of_tags(calibration.links, group)
+        tracks.append(_Follower(ranges.of_tags(group), rig, links, height_m, pushed).track())
     stacked = [np.concatenate([getattr(t, name) for t in tracks], axis=1) for name in Track.__slots__[1:]]
     return Track(ranges.t_s + calibration.lag_s, stacked[0], stacked[1], stacked[2])
 
@@ -95,13 +104,17 @@ def _of_tags(links: LinkModel, tags: list[int]) -> LinkModel:
 class _Follower:
     """Follows one rig; holds what one instant leaves to the next."""
 
-    def __init__(self, ranges: Ranges, rig: Rig, links: LinkModel, height_m: float | None) -> None:
+    def __init__(
+        self, ranges: Ranges, rig: Rig, links: LinkModel, height_m: float | None, pushes: Pushes | None
+    ) -> None:
         self._ranges, self._rig, self._links = ranges, rig, links
         self._height_m = height_m if height_m is None else float(height_m - rig.offsets[:, 2].mean())
+        self._pushes = pushes
         self._state: RigState | None = None
         self._last_fit_s = -np.inf
         self._tried_s = -np.inf
         self._seen_s = np.full(ranges.range_m.shape[1:], -np.inf)  # (A, K) when each link last gave a range
+        self._refused_s = np.full(ranges.range_m.shape[1:], -np.inf)
         self._latest_m = np.full(ranges.range_m.shape[1:], np.nan)
         self._fitted_s = np.full(len(ranges.anchors), -np.inf)  # (A,) when each anchor was last believed
 
@@ -127,10 +140,14 @@ class _Follower:
             self._state = self._start(t_s) or self._state
         if self._state is None:
             return np.zeros(range_m.shape, dtype=bool)
-        state = predicted(self._state, self._rig, t_s)
+        push = None if self._pushes is None else self._pushes.between(self._state.t_s, t_s)
+        state = predicted(self._state, self._rig, t_s, push)
         if not self._rig.has_direction:
             state = pointed(state)
-        self._state, believed = updated(state, self._rig, self._links, self._ranges.anchors, range_m, since_s)
+        trusted = t_s - self._refused_s >= PROBATION_S
+        self._state, fits = updated(state, self._rig, self._links, self._ranges.anchors, range_m, since_s, trusted)
+        self._refused_s[there & ~fits] = t_s
+        believed = fits & trusted
         if believed.any() or not there.any():
             self._last_fit_s = t_s
         self._fitted_s[believed.any(axis=1)] = t_s
@@ -143,7 +160,9 @@ class _Follower:
         tags = np.array([np.full(3, np.nan) if fix is None else fix.position for fix in fixes])
         if np.isfinite(tags).all(axis=1).sum() < (2 if self._rig.has_direction else 1):
             return None
-        return started(t_s, *self._rig.pose(tags), self._height_m)
+        self._refused_s[:] = -np.inf
+        state = started(t_s, *self._rig.pose(tags), self._height_m)
+        return state if self._pushes is None else with_sensor(state, self._pushes.heading_rad)
 
     def _bound_m(self, state: RigState) -> Floats:
         """3.5 √tr(P + W): P what the filter believes; W what was never learnt of the links does, which no filter sees.
@@ -152,9 +171,11 @@ class _Follower:
         the tags of a rig are not taken to err independently.
         """
         sight = self._fitted_s >= state.t_s - SIGHT_MEMORY_S
+        believed = np.trace(tag_covariances(state, self._rig), axis1=1, axis2=2)
+        lasting = self._links.wander_m**2
+        if not lasting:
+            return np.asarray(BOUND_SIGMAS * np.sqrt(believed))
         away = (state.middle - self._ranges.anchors[sight])[:, : state.dimensions]
         unit = away / np.linalg.norm(state.middle - self._ranges.anchors[sight], axis=1)[:, None]
-        lasting = self._links.wander_m**2
         wander = lasting * np.linalg.inv(unit.T @ unit + lasting * np.eye(state.dimensions))
-        believed = np.trace(tag_covariances(state, self._rig), axis1=1, axis2=2)
         return np.asarray(BOUND_SIGMAS * np.sqrt(believed + np.trace(wander)))

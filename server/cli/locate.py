@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Final
 
 import numpy as np
 import typer
@@ -15,13 +15,18 @@ from rich.progress import Progress
 from rich.table import Table
 
 from fusion.errors import InputError
+from fusion.inertial.orientation import Inertial, carried, together
 from fusion.messages import Floats
 from fusion.ranging.calibration import Calibration, calibrate, uncalibrated
 from fusion.ranging.locate import Track, require_solvable
 from fusion.ranging.locate import locate as locate_tags
+from fusion.ranging.pushes import Pushes, integrated
 from fusion.ranging.ranges import Ranges, gathered, interpolated
 from fusion.ranging.self_calibration import self_calibrate
-from fusion.recording.reader import RangeStream, Recording, read_recording
+from fusion.recording.reader import ImuStream, RangeStream, Recording, read_recording
+
+WAIST: Final = ("waist", "pelvis")
+"""Sites of an inertial sensor that goes where a tag on the belt goes."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,9 +81,11 @@ def locate(
     learnt = _calibration(ranges, truth, seconds, height)
     with Progress(console=Console(stderr=True), transient=True) as progress:
         bar = progress.add_task(source.name, total=1.0)
-        track = locate_tags(ranges, learnt, height, lambda share: progress.update(bar, completed=share))
+        beside = _inertial(source, names)
+        track = locate_tags(ranges, learnt, height, lambda share: progress.update(bar, completed=share), beside)
     _write(out, names, track)
     _say(source.name, names, track, truth, learnt, seconds)
+    _say_pushed(names, beside)
     typer.echo(f"{out / 'position.csv'}: {int(np.isfinite(track.bound_m).sum())} positions")
 
 
@@ -136,6 +143,29 @@ def _truth(source: Recording, tags: tuple[str, ...]) -> Truth:
         if tag in source.truth.joints:
             positions[:, k] = source.truth.positions[:, source.truth.joints.index(tag)]
     return Truth(source.truth.t_s, positions)
+
+
+def _inertial(source: Recording, tags: tuple[str, ...]) -> list[Pushes | None]:
+    """Per tag what the sensor beside it measured: one named like the tag; or at the waist, beside an only tag."""
+    streams = {stream.site: stream for stream in source.imu_streams}
+    if len(tags) == 1:
+        worn = next((streams[site] for site in WAIST if site in streams), None)
+        return [_pushes(streams.get(tags[0], worn))]
+    return [_pushes(streams.get(tag)) for tag in tags]
+
+
+def _pushes(stream: ImuStream | None) -> Pushes | None:
+    """Its acceleration in a level frame; the filter finds which way that points."""
+    if stream is None:
+        return None
+    (imu,) = together([Inertial(stream.site, stream.t_s, stream.gyro_rad_s, stream.accel_m_s2)])
+    return integrated(imu.t_s, carried(imu))
+
+
+def _say_pushed(tags: tuple[str, ...], beside: list[Pushes | None]) -> None:
+    pushed = ", ".join(tag for tag, pushes in zip(tags, beside, strict=True) if pushes is not None)
+    if pushed:
+        Console(stderr=True, highlight=False).print(f"With the inertial sensor beside {pushed}.")
 
 
 def _write(folder: Path, tags: tuple[str, ...], track: Track) -> None:

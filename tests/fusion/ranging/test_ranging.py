@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -9,10 +11,12 @@ from hypothesis import strategies as st
 
 from fusion.errors import InputError
 from fusion.ranging.calibration import calibrate, uncalibrated
-from fusion.ranging.experiment import somebody_walks_around
+from fusion.ranging.experiment import somebody_walks_around, walk_around_a_square
 from fusion.ranging.inertial import Inertial, carried_on, joined, reset_if_worse
+from fusion.ranging.links import growth, unknown_links
 from fusion.ranging.locate import locate, require_solvable
 from fusion.ranging.multilateration import solve_position
+from fusion.ranging.pushes import integrated
 from fusion.ranging.ranges import Ranges, gathered
 from fusion.ranging.rig import Rig, learn_rig, turn
 from fusion.ranging.self_calibration import self_calibrate
@@ -124,15 +128,69 @@ def test_the_join_lies_between_both_and_nearer_to_the_surer(sigma_m, since_s):
     assert (x > 0.5) == (inertial.sigma_m < sigma_m) or x == pytest.approx(0.5)
 
 
+def rms_m(found, outcome):
+    return float(np.sqrt(np.mean(np.sum((found - outcome.truth) ** 2, axis=1))))
+
+
 def test_standing_at_the_middle_the_join_halves_what_somebody_walking_around_does():
     for seed in range(3):
         outcome = somebody_walks_around(seed)
-        alone, together = (
-            np.sqrt(np.mean(np.sum((found - outcome.truth) ** 2, axis=1)))
-            for found in (outcome.radio_alone, outcome.joined)
-        )
-        assert together < 0.6 * alone
+        assert rms_m(outcome.joined, outcome) < 0.6 * rms_m(outcome.radio_alone, outcome)
+        assert rms_m(outcome.mended, outcome) < 0.2 * rms_m(outcome.radio_alone, outcome)
         assert np.abs(outcome.joined - outcome.truth).max() < 0.25
+
+
+def test_around_the_square_honest_variances_mend_what_the_papers_rule_makes_worse():
+    for seed in range(2):
+        outcome = walk_around_a_square(seed)
+        assert rms_m(outcome.joined, outcome) > rms_m(outcome.radio_alone, outcome)
+        assert rms_m(outcome.mended, outcome) < 0.4 * rms_m(outcome.radio_alone, outcome)
+
+
+@settings(max_examples=20)
+@given(st.floats(-3, 3), st.floats(-3, 3), st.floats(0.3, 3.0))
+def test_pushes_are_the_displacement_beyond_what_the_velocity_at_the_beginning_does(ax, ay, dt_s):
+    t_s = np.arange(0, 10, 0.01)
+    constant = integrated(t_s, np.tile([ax, ay, 0.0], (len(t_s), 1)))
+    push = constant.between(4.0, 4.0 + dt_s)
+    np.testing.assert_allclose(push.velocity_m_s, [ax * dt_s, ay * dt_s, 0.0], atol=1e-9)
+    np.testing.assert_allclose(push.displacement_m, np.array([ax, ay, 0.0]) * dt_s**2 / 2, atol=1e-4)
+    assert constant.between(9.0, 11.0) is None
+
+
+@settings(max_examples=5)
+@given(st.floats(-3, 3))
+def test_the_sensors_heading_is_found_from_nothing_and_carries_the_track_through_a_blackout(heading_rad):
+    t_s, tags = walk(20.0)
+    ranges = measured(t_s, tags[:, :1], noise_m=0.03)
+    ranges.range_m[800:875] = np.nan
+    accel = np.gradient(np.gradient(tags[:, 0], t_s, axis=0), t_s, axis=0) @ turn(heading_rad)
+    pushed, alone = (
+        locate(ranges, uncalibrated(ranges), height_m=1.0, inertial=[beside]).positions[800:875, 0] - tags[800:875, 0]
+        for beside in (integrated(t_s, accel), None)
+    )
+    assert np.abs(pushed).max() < 0.15
+    assert np.abs(pushed).max() < 0.5 * np.abs(alone).max()
+
+
+@settings(max_examples=5)
+@given(st.floats(0.02, 0.08), st.floats(-0.03, 0.03))
+def test_what_grows_with_distance_is_learnt_by_all_links_together(slope_m, bend_m):
+    t_s, tags = walk(12.0)
+    exact = measured(t_s, tags)
+    grown = replace(exact, range_m=exact.range_m + growth(exact.range_m) @ [slope_m, bend_m])
+    learnt = calibrate(grown, t_s, tags)
+    at_m = np.array([1.5, 3.5, 5.5])
+    found = growth(at_m) @ learnt.links.growth_m
+    np.testing.assert_allclose(found - found[1], growth(at_m) @ [slope_m, bend_m], atol=0.02)
+
+
+@given(st.floats(0.01, 0.2), st.floats(0.05, 1.0), st.floats(1e-3, 10.0))
+def test_a_range_soon_after_another_counts_less_and_one_long_after_counts_whole(sigma_m, coherence_s, since_s):
+    links = replace(unknown_links(1, 1), sigma_m=sigma_m, coherence_s=coherence_s)
+    phi = np.exp(-since_s / coherence_s)
+    assert links.variance_m2(since_s) == pytest.approx(sigma_m**2 * (1 + phi) / (1 - phi))
+    assert links.variance_m2(np.inf) == pytest.approx(sigma_m**2)
 
 
 # ---------------------------------------------------------------- the rig, calibration and the filter

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import csv
+from pathlib import Path
 
 import numpy as np
 import pytest
 import typer
+from scipy.spatial.transform import Rotation
 from typer.testing import CliRunner
 
 from fusion.errors import InputError
-from fusion.recording.reader import read_recording
+from fusion.recording.reader import ImuStream, RangeStream, Recording, TruthStream, read_recording
+from fusion.recording.writer import write_recording
 from server.cli.locate import locate
 
 
@@ -67,6 +70,69 @@ def test_biases_learnt_without_truth_bring_most_of_what_truth_brings(real):
     raw, own = (real(*options)[1] for options in ((), ("--self-calibrate", 30)))
     rms_raw, rms_own = (np.sqrt(np.mean(np.sum(off[:, :2] ** 2, axis=1))) for off in (raw, own))
     assert rms_own < 0.5 * rms_raw
+
+
+# ---------------------------------------------------------------- with an inertial sensor, simulated
+
+ANCHORS = np.array([[-3.0, -2.5, 1.2], [3.0, -2.5, 1.3], [3.0, 2.5, 1.2], [-3.0, 2.5, 1.1]])
+
+
+def walk(t_s):
+    """Somebody stands for four seconds, then walks a figure of eight, (T, 3) m, with the bob and sway of steps."""
+    since = np.maximum(np.asarray(t_s) - 4.0, 0.0)
+    phase = 0.35 * (since - 2.0 * (1 - np.exp(-since / 2.0)))
+    steps = 2 * np.pi * 0.9 * since
+    begun = 1 - np.exp(-((since / 2.0) ** 3))
+    sway, bob = 0.02 * begun * np.sin(steps), 0.02 * begun * np.cos(2 * steps)
+    return np.stack([1.8 * np.sin(phase), 1.2 * np.sin(2 * phase) + sway, 1.0 + bob], axis=-1)
+
+
+def belt(rng, site, seconds=40.0):
+    """A recording of a tag and an inertial sensor on a belt: somebody stands in the way of each anchor in turn."""
+    t_s, dt = np.arange(0, seconds, 0.01), 1e-3
+    places = [walk(t_s + step) for step in (-dt, 0.0, dt)]
+    ahead = walk(t_s + 0.8) - walk(t_s)
+    yaw = np.unwrap(np.arctan2(ahead[:, 1] + 1e-6, ahead[:, 0] + 1e-6))
+    yaw[t_s < 4] = yaw[t_s >= 4][0]
+    turned = Rotation.from_rotvec(yaw[:, None] * [0.0, 0.0, 1.0]) * Rotation.from_euler("xyz", [0.3, -1.2, 0.8])
+    gyro = (turned[:-1].inv() * turned[1:]).as_rotvec() / 0.01
+    force = (places[0] - 2 * places[1] + places[2]) / dt**2 + [0.0, 0.0, 9.81]
+    accel = turned.inv().apply(force)
+    imu = ImuStream(
+        site,
+        t_s[:-1],
+        gyro + rng.normal(0, 0.0018, gyro.shape) + rng.normal(0, 0.0025, 3),
+        (accel + rng.normal(0, 0.055, accel.shape) + rng.normal(0, 0.025, 3))[:-1],
+    )
+    at = t_s[::2]
+    range_m = np.linalg.norm(walk(at)[:, None] - ANCHORS, axis=-1) + rng.normal(0, 0.05, (len(at), 4))
+    blocked = (at[:, None] % 8 > 2 * np.arange(4)) & (at[:, None] % 8 < 2 * np.arange(4) + 1.5) & (at[:, None] > 10)
+    range_m += np.where(blocked, rng.normal(0.4, 0.1, range_m.shape), 0.0)
+    numbers = np.tile(np.arange(4), len(at))
+    ranges = RangeStream(("A", "B", "C", "D"), ANCHORS, ("T",), np.repeat(at, 4), numbers, 0 * numbers, range_m.ravel())
+    truth = TruthStream(at, ("T",), walk(at)[:, None])
+    return Recording("belt", "", None, (), truth, (), Path(), range_streams=(ranges,), imu_streams=(imu,))
+
+
+@pytest.mark.parametrize("site", ["waist", "T"])
+def test_a_sensor_beside_the_tag_lessens_the_error_and_one_elsewhere_is_left_alone(command, tmp_path, site):
+    def rms_m(name, source):
+        write_recording(source, tmp_path / name)
+        result = command(tmp_path / name, "--out", tmp_path / f"{name}-out", "--height", 1.0)
+        assert result.exit_code == 0, result.output
+        rows = list(csv.DictReader((tmp_path / f"{name}-out" / "position.csv").read_text().splitlines()))
+        found = np.array([[float(row[key]) for key in ("t_s", "x_m", "y_m")] for row in rows])
+        found = found[found[:, 0] > 10]
+        return np.sqrt(np.mean(np.sum((found[:, 1:] - walk(found[:, 0])[:, :2]) ** 2, axis=1))), result.output
+
+    alone, said_alone = rms_m("alone", belt(np.random.default_rng(1), "forearm-left"))
+    helped, said_helped = rms_m("helped", belt(np.random.default_rng(1), site))
+    assert helped < 0.7 * alone
+    assert "sensor beside T" in said_helped
+    assert "sensor beside" not in said_alone
+
+
+# ---------------------------------------------------------------- what cannot be used
 
 
 @pytest.mark.recordings
