@@ -26,34 +26,53 @@ def interpolated(
     found = np.full((len(at_s), joints, 3), np.nan)
     seen = np.zeros((len(at_s), joints), np.uint8)
     for m in range(len(at_s)):
-        after = min(max(np.searchsorted(frames_s, at_s[m]), 1), len(frames_s) - 1)
-        before = after - 1
-        span_s = frames_s[after] - frames_s[before]
-        if not (0 < span_s < longest_s and frames_s[before] <= at_s[m] <= frames_s[after]):
-            continue
-        share = (at_s[m] - frames_s[before]) / span_s
-        for j in range(joints):
-            seen[m, j] = min(state[before, j], state[after, j])
+        before, share = _between(frames_s, at_s[m], longest_s)
+        for j in range(joints if before >= 0 else 0):
+            seen[m, j] = min(state[before, j], state[before + 1, j])
             if seen[m, j] > 0:
                 for k in range(3):
-                    found[m, j, k] = (1 - share) * positions[before, j, k] + share * positions[after, j, k]
+                    found[m, j, k] = _mixed(positions[before, j, k], positions[before + 1, j, k], share)
     return found, seen
 
 
 @kernel
-def moved_between(
-    before: Floats, state_before: States, after: Floats, state_after: States
+def moved_around(
+    frames_s: Floats, positions: Floats, state: States, at_s: Floats, half_s: float, longest_s: float
 ) -> tuple[NDArray[np.float32], States]:
-    """How far each joint moved (J, M) from positions (M, J, 3) to others, 0 where unknown, and the lesser states."""
-    instants, joints = state_before.shape
-    moved = np.zeros((joints, instants), np.float32)
-    state = np.zeros((joints, instants), np.uint8)
-    for m in range(instants):
-        for j in range(joints):
-            state[j, m] = min(state_before[m, j], state_after[m, j])
-            if state[j, m] > 0:
-                moved[j, m] = _apart(before[m, j], after[m, j])
-    return moved, state
+    """How far each joint moved (J, M) from `half_s` before to `half_s` after `at_s` (M,), and the least states.
+
+    Interpolated as above; 0 where unknown.
+    """
+    joints = state.shape[1]
+    moved = np.zeros((joints, len(at_s)), np.float32)
+    least = np.zeros((joints, len(at_s)), np.uint8)
+    for m in range(len(at_s)):
+        a, share_a = _between(frames_s, at_s[m] - half_s, longest_s)
+        b, share_b = _between(frames_s, at_s[m] + half_s, longest_s)
+        for j in range(joints if min(a, b) >= 0 else 0):
+            least[j, m] = min(state[a, j], state[a + 1, j], state[b, j], state[b + 1, j])
+            if least[j, m] > 0:
+                square = 0.0
+                for k in range(3):
+                    behind = _mixed(positions[a, j, k], positions[a + 1, j, k], share_a)
+                    square += (_mixed(positions[b, j, k], positions[b + 1, j, k], share_b) - behind) ** 2
+                moved[j, m] = math.sqrt(square)
+    return moved, least
+
+
+@kernel
+def _between(frames_s: Floats, at_s: float, longest_s: float) -> tuple[int, float]:
+    """The frame before an instant and the share of the way to the next one; -1 where they are too far apart."""
+    after = min(max(int(np.searchsorted(frames_s, at_s)), 1), len(frames_s) - 1)
+    span_s = frames_s[after] - frames_s[after - 1]
+    if not (0 < span_s < longest_s and frames_s[after - 1] <= at_s <= frames_s[after]):
+        return -1, 0.0
+    return after - 1, (at_s - frames_s[after - 1]) / span_s
+
+
+@kernel
+def _mixed(a: float, b: float, share: float) -> float:
+    return (1 - share) * a + share * b
 
 
 @kernel

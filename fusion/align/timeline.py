@@ -13,7 +13,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fusion.align.loops import moved_between
 from fusion.align.track import BodyTrack
 from fusion.messages import Floats
 from fusion.skeleton import TrackingState
@@ -83,9 +82,7 @@ def _speeds(track: BodyTrack) -> tuple[Singles, Singles]:
     Single precision: it is only asked where a sum over all joints is largest, and takes half the time.
     """
     grid = np.arange(track.t_s[0], track.t_s[-1], 1.0 / GRID_HZ)
-    ahead, seen_ahead = track.at(grid + SPEED_SPAN_S)
-    behind, seen_behind = track.at(grid - SPEED_SPAN_S)
-    moved_m, seen = moved_between(behind, seen_behind, ahead, seen_ahead)
+    moved_m, seen = track.moved_around(grid, SPEED_SPAN_S)
     known = (seen == TrackingState.TRACKED).astype(np.float32)
     speeds = known * np.minimum(moved_m / (2 * SPEED_SPAN_S), FASTEST_M_S)
     mean = speeds.sum(axis=1) / np.maximum(known.sum(axis=1), 1)

@@ -6,8 +6,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
-from fusion.align.loops import interpolated, paired
+from fusion.align.loops import interpolated, moved_around, paired
 from fusion.messages import Floats, SkeletonSample, States
 
 LONGEST_BRIDGE_S = 0.11
@@ -57,6 +58,10 @@ class BodyTrack:
         State 0 (and NaN) where there is no frame on both sides near enough, or the joint is lost in either.
         """
         return interpolated(self.t_s, self.positions, self.state, t_s, LONGEST_BRIDGE_S)
+
+    def moved_around(self, t_s: Floats, half_s: float) -> tuple[NDArray[np.float32], States]:
+        """How far each joint moved (J, M) from `half_s` before to `half_s` after each instant, and the least states."""
+        return moved_around(self.t_s, self.positions, self.state, t_s, half_s, LONGEST_BRIDGE_S)
 
     def path_m(self) -> float:
         """How far the joints went, on average, in steps of half a second; jitter is taken off."""
