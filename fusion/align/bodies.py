@@ -9,7 +9,7 @@ patient is somebody else, also when the patient is hidden and they stand where t
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from math import dist, isnan
 from typing import Final
@@ -39,6 +39,9 @@ UNKNOWN_AFTER_S: Final = 4.0
 """After so long without the patient, the nearest to where they were is taken at any distance."""
 JUMP_M, JUMP_SPEED_M_S = 0.6, 6.0
 """A body that moves further than this from one frame to the next is another person with the same number."""
+SWIFT_M_S: Final = 3.0
+"""No patient's trunk goes so fast: a sensor that loses a body lets it sink through the floor like this."""
+SPEED_OVER_S: Final = 0.07
 RECENT_FRAMES, PATIENT_FRAMES = 60.0, 600.0
 """Bone lengths of a body are those of the last two seconds; the patient's, of the last twenty."""
 FITS, CANNOT_FIT = 1.5, 2.0
@@ -58,6 +61,7 @@ class Verdict(StrEnum):
     BESIDE = "another person: seen beside the patient"
     FAR = "another person: not where the patient is"
     BONES = "another person: other bone lengths"
+    SWIFT = "the sensor loses the body: it moves as nobody can"
     UNSEEN = "no joint of the body is seen"
 
 
@@ -88,6 +92,7 @@ class Sighting:
     t_s: float
     centre_in_sensor: Floats  # (3,)
     build: Signature
+    velocity_m_s: Floats  # (3,) smoothed
     verdict: Verdict = Verdict.WAITING
 
 
@@ -146,7 +151,7 @@ class BodiesInView:
         self._decide(sighting.body, t_s, expected)
         verdict = self._verdict(sighting.body, expected)
         if verdict is not sighting.verdict:
-            self.seen[sighting.body] = Sighting(sighting.body, t_s, centre, sighting.build, verdict)
+            self.seen[sighting.body] = replace(sighting, verdict=verdict)
         if verdict is Verdict.PATIENT and self.patient.misfit(sighting.build) < FITS:
             self.patient = self.patient.after(sample.positions_in_sensor, sample.state, PATIENT_FRAMES)
         return verdict
@@ -175,7 +180,7 @@ class BodiesInView:
 
     def verdict_now(self, seen: Sighting) -> Verdict:
         """What a body is taken for; another may have been chosen since it was last seen."""
-        if seen.body == self.followed:
+        if seen.body == self.followed and seen.verdict is not Verdict.SWIFT:
             return Verdict.PATIENT
         return Verdict.WAITING if seen.verdict is Verdict.PATIENT else seen.verdict
 
@@ -206,7 +211,8 @@ class BodiesInView:
             sample.positions_in_sensor, sample.state, RECENT_FRAMES
         )
         verdict = before.verdict if before else Verdict.WAITING
-        sighting = self.seen[sample.body] = Sighting(sample.body, t_s, centre, build, verdict)
+        velocity_m_s = _velocity(before, t_s, centre)
+        sighting = self.seen[sample.body] = Sighting(sample.body, t_s, centre, build, velocity_m_s, verdict)
         return sighting
 
     def _watch_bones(self, sighting: Sighting) -> None:
@@ -251,6 +257,8 @@ class BodiesInView:
 
     def _verdict(self, body: str, expected: WhereExpected) -> Verdict:
         """Why a body is or is not the patient, as far as can be told in a word."""
+        if np.linalg.norm(self.seen[body].velocity_m_s) > SWIFT_M_S:
+            return Verdict.SWIFT
         if body == self.followed:
             return Verdict.PATIENT
         if not self._fits(self.seen[body]):
@@ -270,6 +278,16 @@ def trunk_centre(positions: Floats, state: States) -> Floats:
 
 def _nearest(seen: list[Sighting], to: Floats) -> str:
     return min(seen, key=lambda one: dist(one.centre_in_sensor, to)).body
+
+
+def _velocity(before: Sighting | None, t_s: float, centre: Floats) -> Floats:
+    """Of a trunk, smoothed over a few frames; 0 after a silence."""
+    dt = t_s - before.t_s if before else 0.0
+    if before is None or not 0.0 < dt < ALIVE_S:
+        return np.zeros(3)
+    share = min(dt / SPEED_OVER_S, 1.0)
+    velocity: Floats = (1.0 - share) * before.velocity_m_s + share * (centre - before.centre_in_sensor) / dt
+    return velocity
 
 
 def _jumped(before: Sighting, t_s: float, centre: Floats) -> bool:

@@ -215,3 +215,12 @@ def test_everybody_in_view_is_told_with_a_reason(built):
     told = {seen.body: (seen.verdict, seen.confirmed) for seen in finder.bodies(1.2)}
     assert told == {"a": (Verdict.BESIDE, False), "b": (Verdict.PATIENT, True)}
     assert finder.bodies(9.0) == ()
+
+
+def test_a_body_that_sinks_through_the_floor_is_not_used_and_is_the_patient_again_when_it_comes_back(built):
+    """What a Kinect shows when it loses somebody."""
+    finder = PatientFinder()
+    run(finder, [built("1", t) for t in times(0, 2)])
+    sinking = verdicts(finder, [built("1", t, (0.0, -20 * (t - 2) ** 2, 2.0)) for t in times(2, 2.4)])
+    assert sinking[-1] is Verdict.SWIFT
+    assert verdicts(finder, [built("1", t) for t in times(3, 3.2)])[-1] is Verdict.PATIENT
