@@ -12,14 +12,14 @@ from fusion.recording.recording import Recording, SkeletonStream, Trouble
 from fusion.skeleton import JOINT_COUNT, JOINTS, TrackingState
 
 WANDERS_M: Final = 0.4
-"""How far an arm's joint is carried off, each its own way, within a second [Du2016, Fig. 16]."""
-IN_ARMS: Final = np.array([name.startswith(("Shoulder", "Elbow", "Wrist", "Hand", "Thumb")) for name in JOINTS])
+"""How far such a joint is carried off, each its own way, within a second [Du2016, Fig. 16]."""
+WANDERING: Final = np.array([name.startswith(("Elbow", "Wrist", "Hand", "Thumb")) for name in JOINTS])
 
 
 def covered(recording: Recording, events: tuple[Trouble, ...], seed: int) -> Recording:
     """The recording with the lens of each event's sensor covered meanwhile.
 
-    The covered sensor goes on telling a body where it last saw it, inferred; the joints of both arms wander off.
+    The covered sensor goes on telling a body where it last saw it, inferred; elbows, wrists and hands wander off.
 
     Args:
         recording: whose clocks agree.
@@ -30,7 +30,7 @@ def covered(recording: Recording, events: tuple[Trouble, ...], seed: int) -> Rec
     streams = list(recording.skeleton_streams)
     for event in events:
         away = rng.normal(size=(JOINT_COUNT, 3))
-        away *= (IN_ARMS * WANDERS_M / np.linalg.norm(away, axis=1))[:, None]
+        away *= (WANDERING * WANDERS_M / np.linalg.norm(away, axis=1))[:, None]
         streams = [_covered(stream, event, away) if stream.sensor == event.sensor else stream for stream in streams]
     return replace(recording, skeleton_streams=tuple(streams), events=(*recording.events, *events))
 

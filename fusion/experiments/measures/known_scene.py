@@ -7,9 +7,10 @@ from typing import Final
 
 import numpy as np
 
-from fusion.align.alignment import SensorAlignment, reference_alignment
+from fusion.align.alignment import reference_alignment
 from fusion.experiments.measures.covered_lens import covered
 from fusion.experiments.measures.scene import Scene, scene_of
+from fusion.experiments.measures.turning import second_to_first
 from fusion.recording.recording import Recording, Trouble
 from fusion.skeleton import Side
 from fusion.virtual_patient.sensor import TABLE1
@@ -36,8 +37,5 @@ def known_scene(seed: int, length_s: float, events: tuple[Trouble, ...] = ()) ->
     recording = virtual_recording(seed, length_s, noise=MEANS_OFF, clock_offset_s=0.0, apart_rad=np.pi / 2)
     recording = covered(recording, events, seed)
     first, second = sensors_for(Side.RIGHT, seed, MEANS_OFF, 0.0, np.pi / 2)
-    rotation = first.pose.rotation_sensor_to_world.T @ second.pose.rotation_sensor_to_world
-    away = second.pose.position_in_world - first.pose.position_in_world
-    translation = first.pose.rotation_sensor_to_world.T @ away
-    true = SensorAlignment(rotation, translation, 0.0, 0.0, 0, 0.0, 0.0)
-    return KnownScene(recording, scene_of(recording, {first.name: reference_alignment(), second.name: true}))
+    known = {first.name: reference_alignment(), second.name: second_to_first(first.pose, second.pose)}
+    return KnownScene(recording, scene_of(recording, known))

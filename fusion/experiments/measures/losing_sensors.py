@@ -49,7 +49,7 @@ class Loss:
 
 
 BOTH: Final = (0, 1)
-LOSSES: Final = (
+FOR_GOOD: Final = (
     Loss("nothing"),
     Loss("camera 1", (0,)),
     Loss("camera 2", (1,)),
@@ -57,14 +57,17 @@ LOSSES: Final = (
     Loss("tag", tag=True),
     Loss("anatomy", anatomy=True),
     Loss("all but the cameras", inertial=True, tag=True, anatomy=True),
-    Loss("both cameras, 5 s", BOTH, gap_s=5.0),
-    Loss("both cameras and the tag, 5 s", BOTH, tag=True, gap_s=5.0),
-    Loss("both cameras and the inertial sensors, 5 s", BOTH, inertial=True, gap_s=5.0),
-    Loss("both cameras and anatomy, 5 s", BOTH, anatomy=True, gap_s=5.0),
-    Loss("both cameras and all else, 5 s", BOTH, True, True, True, gap_s=5.0),
-    Loss("both cameras, 20 s", BOTH, gap_s=20.0),
-    Loss("both cameras and the tag, 20 s", BOTH, tag=True, gap_s=20.0),
-    Loss("both cameras and the inertial sensors, 20 s", BOTH, inertial=True, gap_s=20.0),
+)
+LOSSES: Final = (
+    *FOR_GOOD,
+    Loss("both cameras for 5 s", BOTH, gap_s=5.0),
+    Loss("the same and the tag", BOTH, tag=True, gap_s=5.0),
+    Loss("the same and the inertial sensors", BOTH, inertial=True, gap_s=5.0),
+    Loss("the same and inertial sensors and anatomy", BOTH, inertial=True, anatomy=True, gap_s=5.0),
+    Loss("the same and all else", BOTH, True, True, True, gap_s=5.0),
+    Loss("both cameras for 20 s", BOTH, gap_s=20.0),
+    Loss("both and the tag for 20 s", BOTH, tag=True, gap_s=20.0),
+    Loss("both and the inertial sensors for 20 s", BOTH, inertial=True, gap_s=20.0),
 )
 
 
