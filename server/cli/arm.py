@@ -17,6 +17,7 @@ from fusion.inertial.chain import CHAIN_JOINTS
 from fusion.inertial.lengths import USUAL, lengths_seen
 from fusion.inertial.orientation import Inertial, Oriented, orient, together
 from fusion.inertial.pose import checked_pose, find_pose
+from fusion.inertial.stills import Return, compared
 from fusion.messages import ArmLengths
 from fusion.recording.reader import Recording, read_recording
 from fusion.skeleton import Side
@@ -38,6 +39,10 @@ def arm(
     upper_arm: Length = None,
     forearm: Length = None,
     hand: Length = None,
+    compare: Annotated[
+        tuple[float, float, float, float] | None,
+        typer.Option(metavar="FROM TO FROM TO", help="Say whether the elbow came back between two still intervals."),
+    ] = None,
 ) -> None:
     """Follow the arms by the inertial sensors on upper arm, forearm and hand; no magnetometer, no camera."""
     console = Console(stderr=True)
@@ -49,18 +54,22 @@ def arm(
     with Progress(console=console, transient=True) as progress:
         for side in progress.track(sides, description=source.name):
             arms.append(_tracked(source, side, given, pose))
-    _write(arms, out)
-    for found in arms:
+    _write([found for _, found in arms], out)
+    for sensors, found in arms:
         console.print(_summary(found), highlight=False, markup=False, soft_wrap=True)
+        if compare is not None:
+            came_back = compared(sensors, found, compare[:2], compare[2:])
+            console.print(_came_back(came_back), highlight=False, markup=False, soft_wrap=True)
 
 
 def _tracked(
     source: Recording, side: Side, given: Sequence[float | None], pose: tuple[float, float] | None
-) -> InertialArm:
+) -> tuple[ArmSensors, InertialArm]:
     upper, forearm, hand = _oriented(source, side)
     segments = (upper, forearm, hand)
     when = find_pose(segments) if pose is None else checked_pose(segments, *pose)
-    return track_arm(side, ArmSensors(*segments), _lengths(source, side, given), when)
+    sensors = ArmSensors(*segments)
+    return sensors, track_arm(side, sensors, _lengths(source, side, given), when)
 
 
 def _oriented(source: Recording, side: Side) -> list[Oriented]:
@@ -106,3 +115,12 @@ def _summary(found: InertialArm) -> str:
     bend = f"bent by {np.degrees(found.hanging_flexion_rad):.0f}°"
     off = f"off the hinge {np.degrees(found.off_hinge_rad):.0f}° rms"
     return f"{found.side.value}: {hung}, {bend}; elbow {bent.min():.0f} to {bent.max():.0f}°, {off}"
+
+
+def _came_back(found: Return) -> str:
+    upper, fore, before, after = np.degrees([found.nearest_upper_rad, found.nearest_forearm_rad, *found.elbow_rad])
+    share = f"gravity agrees within 5° in {found.agreeing} of {found.pairs} pairs"
+    elbow = f"  elbow {before:.0f}° and {after:.0f}° (medians); {share}"
+    if found.agreeing:
+        return f"{elbow}, the elbow there within {np.degrees(found.largest_apart_rad):.1f}°"
+    return f"{elbow}; in the nearest pair it turned by {upper:.0f}° (upper arm) and {fore:.0f}° (forearm): another pose"

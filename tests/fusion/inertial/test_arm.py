@@ -11,10 +11,12 @@ from scipy.spatial.transform import Rotation
 from fusion.errors import InputError
 from fusion.inertial.accuracy import PAPER_CORRELATION, WORN, joint_accuracy, table, track_simulated
 from fusion.inertial.arm import SEGMENTS, ArmSensors, InertialArm, sides_worn, track_arm
+from fusion.inertial.comparison import compare_like_liu, place
 from fusion.inertial.lengths import USUAL
 from fusion.inertial.orientation import Inertial, Oriented, orient
 from fusion.inertial.pose import checked_pose, find_pose
 from fusion.inertial.simulation import SensorErrors, SimulatedArm, simulate_arm
+from fusion.inertial.stills import compared
 from fusion.recording.reader import Recording, read_recording
 from fusion.skeleton import Side
 
@@ -98,6 +100,37 @@ def test_a_pose_must_be_still_and_in_the_recording(simulated: SimulatedArm) -> N
     assert find_pose(segments).to_s < 4.5
 
 
+def test_an_arm_that_returns_has_its_elbow_angle_back_and_one_that_moved_on_is_another_pose(
+    simulated: SimulatedArm,
+) -> None:
+    segments = [orient(imu) for imu in simulated.sensors]
+    sensors = ArmSensors(segments[0], segments[1], segments[2])
+    found = track_simulated(simulated)
+    same = compared(sensors, found, (0.0, 1.5), (2.0, 3.5))
+    assert same.agreeing == same.pairs > 100
+    assert same.largest_apart_rad < np.radians(2)
+    with pytest.raises(InputError, match="never still from 20 to 25 s"):
+        compared(sensors, found, (0.0, 1.5), (20.0, 25.0))
+
+
+def test_the_papers_comparison_finds_the_optical_frame_and_its_correlations_are_beaten() -> None:
+    one, again = (compare_like_liu(3, duration_s=30.0) for _ in range(2))
+    assert_allclose(one.found, again.found)
+    assert one.placement.scale == pytest.approx(1.0, abs=1e-3)
+    assert np.isnan(one.correlation[0])
+    assert (one.correlation[1:] > 0.99).all()
+    assert one.rms_m.max() < 0.01
+
+
+def test_the_papers_placement_is_exact_for_exact_points(simulated: SimulatedArm) -> None:
+    turn = Rotation.from_rotvec([0.3, -1.0, 2.0]).as_matrix()
+    points = simulated.positions[:, :3]
+    placed = place(points / 1.1, points @ turn.T + [1.0, 2.0, 3.0])
+    assert_allclose(placed.rotation, turn, atol=1e-9)
+    assert placed.scale == pytest.approx(1.1)
+    assert_allclose(placed.translation_m, [1.0, 2.0, 3.0], atol=1e-9)
+
+
 def test_an_arm_needs_all_three_sensors() -> None:
     assert sides_worn([f"{segment}-left" for segment in SEGMENTS]) == (Side.LEFT,)
     with pytest.raises(InputError, match="no imu stream has the site hand-right"):
@@ -141,6 +174,19 @@ def test_a_real_elbow_does_what_elbows_do(both_arms: dict[Side, tuple[ArmSensors
         assert bent.min() >= -10
         assert 90 < bent.max() < 155
         assert np.degrees(found.off_hinge_rad) < 15
+
+
+@pytest.mark.recordings
+def test_at_40_to_45_s_and_73_to_79_s_the_real_arms_pose_differs_and_later_it_comes_back(
+    both_arms: dict[Side, tuple[ArmSensors, InertialArm]],
+) -> None:
+    for sensors, found in both_arms.values():
+        other = compared(sensors, found, (40, 45), (73, 79))
+        assert other.agreeing == 0
+        assert max(other.nearest_upper_rad, other.nearest_forearm_rad) > np.radians(25)
+        back = compared(sensors, found, (40, 90), (90, 140))
+        assert back.agreeing > 20
+        assert back.largest_apart_rad < np.radians(5)
 
 
 @pytest.mark.recordings
