@@ -19,7 +19,7 @@ from typing import Final
 
 import numpy as np
 
-from fusion.align.facing_loops import looked, renamed, spread
+from fusion.align.facing_loops import looked, renamed, turned
 from fusion.messages import Floats, States
 from fusion.skeleton import INDEX
 
@@ -110,11 +110,11 @@ class Facing:
         dt_s = t_s - self.t_s
         if dt_s <= 0.0:
             return self
-        joint = np.array([self.share, *(self.share * named.exchanged for named in self.sensors.values())])
-        share, *exchanged = spread(joint, TURN_RAD_SQRT_S * sqrt(dt_s) * DIRECTIONS / (2 * pi))
+        before = np.array([named.exchanged for named in self.sensors.values()]).reshape(-1, DIRECTIONS)
+        share, exchanged = turned(self.share, before, TURN_RAD_SQRT_S * sqrt(dt_s) * DIRECTIONS / (2 * pi))
         sensors = {
-            name: _Named(part / share, named.t_s, named.facing_rad)
-            for (name, named), part in zip(self.sensors.items(), exchanged, strict=True)
+            name: _Named(exchanged[m], named.t_s, named.facing_rad)
+            for m, (name, named) in enumerate(self.sensors.items())
         }
         return Facing(share, sensors, t_s)
 

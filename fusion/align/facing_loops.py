@@ -18,26 +18,34 @@ MOST_OFTEN = 0.95
 
 
 @kernel
-def spread(beliefs: Floats, std: float) -> Floats:
-    """Beliefs (M, N) on the circle, each smeared by a Gaussian; the first stays a distribution.
+def turned(share: Floats, exchanged: Floats, std: float) -> tuple[Floats, Floats]:
+    """The belief once the person may have turned: P(ψ) and P(ψ, exchanged) of each sensor smeared by a Gaussian.
 
     Args:
-        beliefs: the first is a distribution over directions, the others parts of it.
+        share: (N,) of each direction.
+        exchanged: (M, N) probability that a sensor's names are exchanged, given each direction.
         std: of the Gaussian, in directions.
     """
-    rows, count = beliefs.shape
-    reach = min(int(4.0 * std) + 1, count // 2 - 1)
-    tap = np.exp(-0.5 * (np.arange(reach + 1) / std) ** 2)
-    tap /= 2.0 * tap.sum() - tap[0]
-    smeared = np.empty_like(beliefs)
-    for m in range(rows):
+    reach = min(int(4.0 * std) + 1, len(share) // 2 - 1)
+    taps = np.exp(-0.5 * (np.arange(reach + 1) / std) ** 2)
+    taps /= 2.0 * taps.sum() - taps[0]
+    new_share, new_exchanged = _smeared(share, taps), np.empty_like(exchanged)
+    for m in range(len(exchanged)):
+        new_exchanged[m] = _smeared(share * exchanged[m], taps) / new_share
+    return new_share / new_share.sum(), new_exchanged
+
+
+@kernel
+def _smeared(belief: Floats, taps: Floats) -> Floats:
+    """A belief (N,) on the circle, each direction's part spread to both sides by `taps`."""
+    count, reach = len(belief), len(taps) - 1
+    around = np.concatenate((belief[count - reach :], belief, belief[:reach]))
+    smeared = taps[0] * belief
+    for k in range(1, reach + 1):
         for n in range(count):
-            total = tap[0] * beliefs[m, n]
-            for k in range(1, reach + 1):
-                total += tap[k] * (beliefs[m, (n + k) % count] + beliefs[m, n - k])
-            smeared[m, n] = max(total, LEAST)
-    smeared /= smeared[0].sum()
-    return smeared
+            smeared[n] += taps[k] * (around[reach + n + k] + around[reach + n - k])
+    least: Floats = np.maximum(smeared, LEAST)
+    return least
 
 
 @kernel
@@ -100,8 +108,8 @@ def looked(
         kappa = aside + (ahead - aside) * abs(np.cos(direction - towards_lens))
         height, floor = (1.0 - misled) * np.sqrt(kappa / (2 * np.pi)), misled / (2 * np.pi)
         cosine = np.cos(direction - line)
-        right = (height * np.exp(kappa * (cosine - 1.0)) + floor) ** looks
-        other = (height * np.exp(kappa * (-cosine - 1.0)) + floor) ** looks
+        right = np.exp(looks * np.log(height * np.exp(kappa * (cosine - 1.0)) + floor))
+        other = np.exp(looks * np.log(height * np.exp(kappa * (-cosine - 1.0)) + floor))
         both = (1.0 - exchanged[n]) * right + exchanged[n] * other
         new_exchanged[n] = min(max(exchanged[n] * other / both, SURE), 1.0 - SURE)
         new_share[n] = share[n] * both
