@@ -59,7 +59,7 @@ def joined(
     """
     sets = cut(told, offsets, places, distances)
     camera_m = np.where(sets.doubted, np.inf, told.bound_m)
-    solved, std_m = point.solve(told.positions_in_room, camera_m, sets.offsets, sets.places)
+    solved, std_m = point.solve(told.positions_in_room, camera_m, sets.offsets, sets.places, bones_hold=bool(distances))
     positions = np.clip(solved, sets.boxes.low, sets.boxes.high)
     half = np.maximum(sets.boxes.high - positions, positions - sets.boxes.low)
     likely_m = point.BOUND_SIGMAS * std_m + SHARED_M

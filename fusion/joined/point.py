@@ -23,9 +23,13 @@ BOUND_SIGMAS: Final = 4.0
 TOLERANCE_SIGMAS: Final = 3.0
 """And a bone's tolerance so many of its own."""
 COMES_ALONG_STD_M: Final = 0.15
+NOTHING: Final = 1e-9
+"""Weight of what is not to be believed, so that there is an inverse: 30 km."""
 
 
-def solve(told: Floats, bound_m: Floats, offsets: Sequence[Offset], places: Sequence[Place]) -> tuple[Floats, Floats]:
+def solve(
+    told: Floats, bound_m: Floats, offsets: Sequence[Offset], places: Sequence[Place], bones_hold: bool
+) -> tuple[Floats, Floats]:
     """The point of every joint, (J, 3) m, and its standard deviation per axis, (J,) m, if all errors were independent.
 
     Args:
@@ -33,12 +37,13 @@ def solve(told: Floats, bound_m: Floats, offsets: Sequence[Offset], places: Sequ
         bound_m: (J,) of it; infinite where cameras are not to be believed.
         offsets: bones whose vector is known.
         places: joints whose place is known.
+        bones_hold: whether what nobody sees comes along with what is seen.
     """
     known: Flags = np.asarray(np.isfinite(told).all(axis=1))
     start = np.where(known[:, None], told, 0.0)
     weight = np.where(known, (BOUND_SIGMAS / bound_m) ** 2, 0.0)
-    matrix, right = np.diag(weight + np.where(known, 0.0, 1.0)), np.zeros((JOINT_COUNT, 3))
-    ends, vectors, std_m = _bones(start, known, offsets)
+    matrix, right = np.diag(np.where(weight > 0, weight, NOTHING)), np.zeros((JOINT_COUNT, 3))
+    ends, vectors, std_m = _bones(start, known, offsets, BONE_INDICES if bones_hold else BONE_INDICES[:0])
     apart = np.zeros((len(ends), JOINT_COUNT))  # apart @ x is every child less its parent
     rows = np.arange(len(ends))
     apart[rows, ends[:, 1]], apart[rows, ends[:, 0]] = 1.0, -1.0
@@ -54,13 +59,15 @@ def solve(told: Floats, bound_m: Floats, offsets: Sequence[Offset], places: Sequ
     return np.where(known[:, None], moved, np.nan), np.sqrt(np.diagonal(covariance))
 
 
-def _bones(start: Floats, known: Flags, offsets: Sequence[Offset]) -> tuple[NDArray[np.int64], Floats, Floats]:
+def _bones(
+    start: Floats, known: Flags, offsets: Sequence[Offset], holding: NDArray[np.int64]
+) -> tuple[NDArray[np.int64], Floats, Floats]:
     """Every bone between joints that are known: (N, 2) its ends, (N, 3) vector and (N,) standard deviation.
 
-    The skeleton's own bones are among them even where an inertial sensor tells the vector: so weak a word does no harm.
+    Holding bones are among them even where an inertial sensor tells the vector: so weak a word does no harm.
     """
-    ends = np.concatenate([BONE_INDICES, np.array([(o.parent, o.child) for o in offsets], np.int64).reshape(-1, 2)])
-    told = start[BONE_INDICES[:, 1]] - start[BONE_INDICES[:, 0]]
+    ends = np.concatenate([holding, np.array([(o.parent, o.child) for o in offsets], np.int64).reshape(-1, 2)])
+    told = start[holding[:, 1]] - start[holding[:, 0]]
     vectors = np.concatenate([told, np.array([o.offset for o in offsets]).reshape(-1, 3)])
     std_m = [o.tolerance_m / TOLERANCE_SIGMAS for o in offsets]
     both = known[ends].all(axis=1)
