@@ -11,6 +11,10 @@ import numpy as np
 from fusion.kinematics.angles import HANGING, wrapped
 from fusion.messages import Floats, JointAngles, MirrorTarget
 
+Velocities = tuple[Floats, float, float]
+"""Of the upper arm's direction (3,), of the twist and of the elbow, per second."""
+STILL: Final[Velocities] = (np.zeros(3), 0.0, 0.0)
+
 VELOCITY_TIME_S: Final = 0.1
 """Time constant of the velocities' filter; velocities only feed forward, the position is never delayed."""
 LONGEST_STEP_S: Final = 0.25
@@ -38,20 +42,21 @@ def mirror(healthy: JointAngles, previous: MirrorTarget | None) -> MirrorTarget:
         previous = None
     if not healthy.valid:
         return _resting(healthy, previous)
-    target = _copied(healthy, _told_twist(healthy, previous))
-    return target if previous is None else _with_velocities(target, previous)
+    twist_rad = _told_twist(healthy, previous)
+    return _copied(healthy, twist_rad, _velocities(healthy, twist_rad, previous))
 
 
-def _copied(healthy: JointAngles, twist_rad: float) -> MirrorTarget:
+def _copied(healthy: JointAngles, twist_rad: float, velocities: Velocities) -> MirrorTarget:
+    direction_velocity, twist_rad_s, elbow_rad_s = velocities
     return MirrorTarget(
         t_s=healthy.t_s,
         side=healthy.side.other,
         direction_in_limb=healthy.direction_in_limb,
         twist_rad=twist_rad,
         elbow_rad=healthy.elbow_flexion_rad,
-        direction_velocity=np.zeros(3),
-        twist_rad_s=0.0,
-        elbow_rad_s=0.0,
+        direction_velocity=direction_velocity,
+        twist_rad_s=twist_rad_s,
+        elbow_rad_s=elbow_rad_s,
         swing_bound_rad=healthy.swing_bound_rad,
         twist_bound_rad=healthy.twist_bound_rad,
         elbow_bound_rad=healthy.elbow_bound_rad,
@@ -61,7 +66,7 @@ def _copied(healthy: JointAngles, twist_rad: float) -> MirrorTarget:
 
 def _resting(healthy: JointAngles, previous: MirrorTarget | None) -> MirrorTarget:
     """Nothing to follow: stay, claim nothing."""
-    last = previous or replace(_copied(healthy, 0.0), direction_in_limb=np.array(HANGING), elbow_rad=0.0)
+    last = previous or replace(_copied(healthy, 0.0, STILL), direction_in_limb=np.array(HANGING), elbow_rad=0.0)
     return replace(
         last,
         t_s=healthy.t_s,
@@ -92,18 +97,17 @@ def _determination(flexion_rad: float) -> float:
     return part * part * (3.0 - 2.0 * part)
 
 
-def _with_velocities(target: MirrorTarget, previous: MirrorTarget) -> MirrorTarget:
+def _velocities(healthy: JointAngles, twist_rad: float, previous: MirrorTarget | None) -> Velocities:
     """Differences to the previous target through a first-order low-pass."""
-    dt_s = target.t_s - previous.t_s
-    if not previous.valid or not 0.0 < dt_s <= LONGEST_STEP_S:
-        return target
+    dt_s = healthy.t_s - previous.t_s if previous else 0.0
+    if previous is None or not previous.valid or not 0.0 < dt_s <= LONGEST_STEP_S:
+        return STILL
     share = 1.0 - exp(-dt_s / VELOCITY_TIME_S)
-    swing: Floats = (target.direction_in_limb - previous.direction_in_limb) / dt_s
-    twist = wrapped(target.twist_rad - previous.twist_rad) / dt_s
-    elbow = (target.elbow_rad - previous.elbow_rad) / dt_s
-    return replace(
-        target,
-        direction_velocity=previous.direction_velocity + share * (swing - previous.direction_velocity),
-        twist_rad_s=previous.twist_rad_s + share * (twist - previous.twist_rad_s),
-        elbow_rad_s=previous.elbow_rad_s + share * (elbow - previous.elbow_rad_s),
+    swing: Floats = (healthy.direction_in_limb - previous.direction_in_limb) / dt_s
+    twist = wrapped(twist_rad - previous.twist_rad) / dt_s
+    elbow = (healthy.elbow_flexion_rad - previous.elbow_rad) / dt_s
+    return (
+        previous.direction_velocity + share * (swing - previous.direction_velocity),
+        previous.twist_rad_s + share * (twist - previous.twist_rad_s),
+        previous.elbow_rad_s + share * (elbow - previous.elbow_rad_s),
     )
