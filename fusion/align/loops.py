@@ -197,17 +197,27 @@ def offset_sums(errors: Floats, velocity: Floats, weight: Floats, tukey_m: float
 @kernel
 def middle_seen(positions: Floats, state: States, joints: NDArray[np.int64]) -> Floats:
     """The upper median (3,), axis by axis, of those of the joints (J, 3) that are seen; NaN when none is."""
-    seen = np.empty((3, len(joints)))
+    in_order = np.empty((3, len(joints)))
     count = 0
     for j in joints:
         if state[j] > 0 and math.isfinite(positions[j, 0] + positions[j, 1] + positions[j, 2]):
             for k in range(3):
-                seen[k, count] = positions[j, k]
+                _insert(in_order[k], count, positions[j, k])
             count += 1
     middle = np.full(3, np.nan)
     for k in range(3 if count else 0):
-        middle[k] = np.sort(seen[k, :count])[count // 2]
+        middle[k] = in_order[k, count // 2]
     return middle
+
+
+@kernel
+def _insert(in_order: Floats, count: int, value: float) -> None:
+    """Put a value in its place among the first `count`."""
+    place = count
+    while place > 0 and in_order[place - 1] > value:
+        in_order[place] = in_order[place - 1]
+        place -= 1
+    in_order[place] = value
 
 
 @kernel
