@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from bisect import bisect_left, insort
-from collections import deque
 from math import isnan
 from typing import Final, NamedTuple
 
 import numpy as np
 
+from fusion.kinematics.lately import Lately
 from fusion.kinematics.vectors import length, step
 from fusion.messages import ArmLengths, FusedFrame
 from fusion.skeleton import Side, TrackingState, arm
@@ -17,6 +16,10 @@ EVERY_S: Final = 0.1
 MEMORY: Final = 300
 """Samples remembered: 30 s. Old ones leave, so another patient's arm is forgotten."""
 ENOUGH: Final = 10
+DOUBTS: Final = 3
+DOUBTED_M: Final = 0.2
+"""So many samples of so large a misfit [Du2016 Table 1] are believed in before any was seen: a few samples that agree
+say little of what is usual."""
 USUAL_HAND_M: Final = 0.08
 """Wrist to the hand's centre for sensors that give no hand."""
 _JOINTS: Final = {side: arm(side) for side in Side}
@@ -30,8 +33,10 @@ class LengthLearner:
     """
 
     def __init__(self) -> None:
-        self._segments = (_Lately(), _Lately(), _Lately())  # upper arm, forearm, hand
-        self._misfits = _Lately()
+        self._segments = (Lately(MEMORY), Lately(MEMORY), Lately(MEMORY))  # upper arm, forearm, hand
+        self._misfits = Lately(MEMORY)
+        for _ in range(DOUBTS):
+            self._misfits.take(DOUBTED_M)
         self._next_s = -np.inf
         self._lengths: ArmLengths | None = None
 
@@ -59,7 +64,7 @@ class LengthLearner:
         for segment, length_m in zip(self._segments, measured, strict=True):
             segment.take(length_m)
         forearm = self._segments[1]
-        self._misfits.take(abs(forearm.newest - forearm.median))
+        self._misfits.take(abs(measured[1] - forearm.median))
         if forearm.count >= ENOUGH:
             self._lengths = ArmLengths(*(segment.median for segment in self._segments))
 
@@ -70,35 +75,6 @@ class Ruler(NamedTuple):
     usual: float
     """Median of the last half minute."""
     now: float
-
-
-class _Lately:
-    """The latest numbers, in order of time and in order of size."""
-
-    def __init__(self) -> None:
-        self._by_time: deque[float] = deque()
-        self._by_size: list[float] = []
-
-    @property
-    def count(self) -> int:
-        return len(self._by_size)
-
-    @property
-    def newest(self) -> float:
-        return self._by_time[-1]
-
-    @property
-    def median(self) -> float:
-        middle = self.count // 2
-        if self.count % 2:
-            return self._by_size[middle]
-        return 0.5 * (self._by_size[middle - 1] + self._by_size[middle])
-
-    def take(self, number: float) -> None:
-        self._by_time.append(number)
-        insort(self._by_size, number)
-        if self.count > MEMORY:
-            del self._by_size[bisect_left(self._by_size, self._by_time.popleft())]
 
 
 def _measured(frame: FusedFrame, joints: tuple[int, int, int, int]) -> tuple[float, float, float]:

@@ -5,9 +5,9 @@ other, and must allow for all that a depth camera may do to a joint. But shoulde
 instant err together, and a direction is steadier than its ends. Two things that are seen all the time say how much:
 
 - every sensor's own segments, held against the told ones of that instant. As for the joints' balls, the bound is the
-  worst disagreement of the last second, what no disagreement can show, and what an acceleration can have added since;
-- the forearm as a ruler: its length is known, so its misfit is an error that anybody can see, and errors across a
-  segment are a few times as large at most.
+  worst disagreement of late, what no disagreement can show, and what an acceleration can have added since;
+- what is usual: no error is more than a few times as large as the usual disagreement, or as the usual misfit of the
+  forearm, whose length is known and whose misfit one sensor alone shows as well.
 
 The larger one counts. Assumptions and measurements: docs/angles.md.
 """
@@ -22,6 +22,7 @@ import numpy as np
 
 from fusion.compiled import kernel
 from fusion.kinematics.angles import ARM_JOINTS, OUTWARD, Joints, PerAngle, pose_of, to_limb, wrapped
+from fusion.kinematics.lately import Lately
 from fusion.kinematics.lengths import Ruler
 from fusion.kinematics.vectors import Vector, angle_between, step, sum_of, unit
 from fusion.messages import AlignedSample, Floats, FusedFrame, TrunkFrame
@@ -29,7 +30,10 @@ from fusion.skeleton import Side, TrackingState
 
 START_RAD: Final = 0.7
 """The worst disagreement before there was any: an error of 0.2 m [Du2016 Table 1] across a segment of 0.28 m."""
-FORGET_S: Final = 1.0
+FORGET_S: Final = 0.5
+"""A disagreement fades at this rate."""
+MEMORY: Final = 900
+"""Disagreements remembered for what is usual: a quarter of a minute of two sensors."""
 AGREED_WITHIN_S: Final = 0.25
 """Sensors that saw the arm within this time of now confirm one another; a late sensor's word is that old."""
 ACCELERATION_RAD_S2: Final = 75.0
@@ -44,12 +48,14 @@ AGREED: Final = PerAngle(0.16, 0.19, 0.19)
 """Errors that two sensors share, which no disagreement shows."""
 ALONE: Final = PerAngle(0.20, 0.31, 0.31)
 """What one sensor, held against nothing but its own past, does not show."""
-USUAL_MISFITS: Final = PerAngle(8.0, 9.5, 9.5)
-"""No angle errs by more than this many of the forearm's usual misfits. With errors of equal size in every direction one
-standard deviation is 1.5 of them: 5.4 of the two that make the swing; both others feel the elbow's error twice."""
+USUAL_APART: Final = PerAngle(5.5, 6.0, 8.0)
+USUAL_MISFITS: Final = PerAngle(8.0, 9.0, 8.0)
+"""No angle errs by more than this many usual disagreements, or usual misfits as shares of the forearm. With errors of
+equal size in every direction a standard deviation is 1.5 usual misfits: 5.3 of the two that make the swing; both other
+angles feel the elbow's error twice."""
 MISFIT_NOW: Final = 1.5
 """A forearm that is too long or too short now shows an error of elbow or wrist; across, it may be this much larger."""
-SMALL_RAD: Final = 0.8
+SMALL_RAD: Final = 0.7
 """Larger than this, errors are no longer small, and nothing that is learnt from them is believed."""
 
 
@@ -71,8 +77,9 @@ class Witnesses:
         self._told = np.full((TOLD_COUNT, 7), -inf)  # time, upper arm, forearm in the room
         self._at = 0
         self._words: dict[str, _Word] = {}
-        self._worst = [START_RAD] * 3
-        self._worst_s = -inf
+        self._worst = [START_RAD] * 3  # as in `PerAngle`
+        self._usual = (Lately(MEMORY), Lately(MEMORY), Lately(MEMORY))
+        self._faded_s = inf
 
     def hear(
         self, frame: FusedFrame, trunk: TrunkFrame, side: Side, samples: tuple[AlignedSample, ...], ruler: Ruler
@@ -100,9 +107,9 @@ class Witnesses:
         return self._bounds(frame.t_s, ruler)
 
     def _fade(self, t_s: float) -> None:
-        left = exp(-max(t_s - self._worst_s, 0.0) / FORGET_S) if self._worst_s > -inf else 1.0
+        left = exp(-max(t_s - self._faded_s, 0.0) / FORGET_S)
         self._worst = [worst * left for worst in self._worst]
-        self._worst_s = t_s
+        self._faded_s = t_s
 
     def _judge(self, sample: AlignedSample, word: _Word, seen: int, body: tuple[TrunkFrame, Side]) -> None:
         """`seen`: how many joints of the arm, from the shoulder on, the sensor saw and was believed in."""
@@ -114,34 +121,33 @@ class Witnesses:
         if isnan(apart[0]):
             return
         word.upper_s = sample.t_s
-        self._worst[0] = max(self._worst[0], apart[0])
         if seen == 3:
             word.whole_s = sample.t_s
-            self._worst[1:] = max(self._worst[1], apart[1]), max(self._worst[2], apart[2])
+        for angle in range(3 if seen == 3 else 1):
+            self._worst[angle] = max(self._worst[angle], apart[angle])
+            self._usual[angle].take(apart[angle])
 
     def _bounds(self, t_s: float, ruler: Ruler) -> PerAngle:
-        upper_s, upper = _doubt([word.upper_s for word in self._words.values()], t_s)
-        whole_s, whole = _doubt([word.whole_s for word in self._words.values()], t_s)
-        added_upper, added_whole = (0.5 * ACCELERATION_RAD_S2 * silence_s**2 for silence_s in (upper_s, whole_s))
-        swing, elbow, turn = self._worst
+        upper = _doubt([word.upper_s for word in self._words.values()], t_s)
+        whole = _doubt([word.whole_s for word in self._words.values()], t_s)
         misfit = MISFIT_NOW * ruler.now
-        return PerAngle(
-            _believed(swing + upper.swing + added_upper, USUAL_MISFITS.swing * ruler.usual),
-            _believed(max(elbow, misfit) + whole.elbow + added_whole, USUAL_MISFITS.elbow * ruler.usual),
-            _believed(max(turn, misfit) + whole.turn + added_whole, USUAL_MISFITS.turn * ruler.usual),
-        )
+        swing, elbow, turn = self._worst
+        shown = (swing + upper.swing, max(elbow, misfit) + whole.elbow, max(turn, misfit) + whole.turn)
+        return PerAngle(*(self._believed(angle, shown[angle], ruler) for angle in range(3)))
+
+    def _believed(self, angle: int, shown: float, ruler: Ruler) -> float:
+        usual = max(USUAL_APART[angle] * self._usual[angle].median, USUAL_MISFITS[angle] * ruler.usual)
+        bound = max(shown, usual)
+        return bound if bound <= SMALL_RAD else pi
 
 
-def _believed(by_witnesses: float, by_ruler: float) -> float:
-    bound = max(by_witnesses, by_ruler)
-    return bound if bound <= SMALL_RAD else pi
-
-
-def _doubt(heard_s: list[float], t_s: float) -> tuple[float, PerAngle]:
-    """How long nobody has seen the arm, and what is hidden from those who saw it lately."""
+def _doubt(heard_s: list[float], t_s: float) -> PerAngle:
+    """What is hidden from those who saw the arm lately, and what an acceleration may have added since."""
     silence_s = max(t_s - max(heard_s, default=-inf), 0.0)
     agreed = sum(t_s - heard <= AGREED_WITHIN_S for heard in heard_s) > 1
-    return silence_s, AGREED if agreed else ALONE
+    added = 0.5 * ACCELERATION_RAD_S2 * silence_s**2
+    swing, elbow, turn = AGREED if agreed else ALONE
+    return PerAngle(swing + added, elbow + added, turn + added)
 
 
 def _seen(sample: AlignedSample, frame: FusedFrame, joints: Joints) -> int:
