@@ -110,13 +110,15 @@ class Pipeline:
             newest_received_s=self._newest_received_s,
         )
 
-    def follow(self, sensor: str, body: str) -> None:
-        """A person's choice: this body of this sensor is the patient."""
-        self._patient.follow(sensor, body)
-        self._body.restart()
-        self._sides = SideKeeper()
-        self._arm = ArmFollower(self._settings.healthy_side)
-        self._recent = None
+    def follow(self, sensor: str, body: str) -> bool:
+        """A person's choice: this body of this sensor is the patient. Tells whether it is another one than before."""
+        is_another = self._patient.follow(sensor, body)
+        if is_another:
+            self._body.restart()
+            self._sides = SideKeeper()
+            self._arm = ArmFollower(self._settings.healthy_side)
+            self._recent = None
+        return is_another
 
     def treat(self, healthy_side: Side) -> None:
         """A session begins: this arm is the healthy one. What has been learnt of the sensors stays."""
@@ -131,7 +133,7 @@ class Pipeline:
 
     def bodies(self, t_s: float) -> tuple[BodyInView, ...]:
         """Everybody whom a sensor sees now, the patient included, on the receive clock."""
-        return self._patient.bodies(t_s)
+        return tuple(self._placed(seen) for seen in self._patient.bodies(t_s))
 
     def sensors(self, t_s: float) -> tuple[SensorQuality, ...]:
         """How each sensor does."""
@@ -156,6 +158,13 @@ class Pipeline:
         return {name: dict(watch.refusals) for name, watch in self._sensors.items()}
 
     # --- the steps
+
+    def _placed(self, seen: BodyInView) -> BodyInView:
+        alignment = self._alignment(self._sensors[seen.sensor])
+        if alignment is None:
+            return seen
+        in_room = seen.centre_in_sensor @ alignment.rotation_sensor_to_reference.T + alignment.translation_m
+        return replace(seen, centre_in_room=in_room)
 
     def _watch(self, sensor: str) -> SensorWatch:
         watch = self._sensors.get(sensor)

@@ -198,6 +198,23 @@ class SensorView(msgspec.Struct, frozen=True, kw_only=True):
     """25 joints after alignment; empty while unaligned."""
 
 
+class PersonView(msgspec.Struct, frozen=True, kw_only=True):
+    """A body that a sensor sees, for the therapist to say who the patient is."""
+
+    sensor: str
+    body: str
+    """The sensor's own number for it."""
+    place_in_sensor: Point
+    """Middle of the trunk."""
+    place_in_room: Point | None
+    """The same, where the sensor's place is known."""
+    is_patient: bool
+    confirmed: bool
+    """Whether a person said that this is the patient."""
+    reason: str
+    """What the body is taken for, in plain words."""
+
+
 class BodyView(msgspec.Struct, frozen=True, kw_only=True):
     """The fused body."""
 
@@ -273,6 +290,8 @@ class LiveTick(msgspec.Struct, frozen=True, kw_only=True):
     session: str
     healthy_side: Side
     sensors: tuple[SensorView, ...]
+    people: tuple[PersonView, ...] = ()
+    """Every body in view of every sensor; ticks recorded before this was told have none."""
     body: BodyView | None
     healthy: ArmView | None
     target: ArmView | None

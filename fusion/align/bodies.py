@@ -126,8 +126,9 @@ class BodiesInView:
         self.patient = Signature.unknown()
 
     def begin_session(self) -> None:
-        """Another patient may come: nobody is ruled out, and no bones are known."""
+        """Another patient may come: nobody is ruled out or confirmed, and no bones are known."""
         self.others.clear()
+        self.confirmed = False
         self.patient = Signature.unknown()
 
     def prefer(self, body: str, t_s: float) -> None:

@@ -33,6 +33,8 @@ class BodyInView:
     verdict: Verdict
     confirmed: bool
     """Whether a person said that this is the patient."""
+    centre_in_room: Floats | None = None
+    """(3,), where the sensor's place is known."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,12 +54,19 @@ class PatientFinder:
         self._views: dict[str, BodiesInView] = {}
         self._places: dict[str, _Place] = {}
 
-    def follow(self, sensor: str, body: str) -> None:
-        """A person's choice: this body is the patient. The other sensors find the same person by place."""
-        for view in self._views.values():
+    def follow(self, sensor: str, body: str) -> bool:
+        """A person's choice: this body is the patient. The other sensors find the same person by place.
+
+        Returns:
+            Whether it is another one than before.
+        """
+        chosen = self._views.setdefault(sensor, BodiesInView())
+        is_another = chosen.followed != body
+        for view in self._views.values() if is_another else ():
             view.follow_anew()
         self._places.clear()
-        self._views.setdefault(sensor, BodiesInView()).confirm(body)
+        chosen.confirm(body)
+        return is_another
 
     def begin_session(self) -> None:
         """Another patient may come: who stood beside the last one may be the next."""

@@ -65,7 +65,8 @@ class Desk:
 
     def _follow(self, wish: FollowBody, state: SafetyState, now_s: float) -> SafetyState:
         """Another body's arm is another target: that is no short loss, so a person resumes."""
-        self._perception.follow(wish.sensor, wish.body)
+        if not self._perception.follow(wish.sensor, wish.body):
+            return state
         return safety.wish(state, Hold(number=wish.number, reason="Another body is followed now."), now_s)[0]
 
     def _open(self, wish: OpenSession, state: SafetyState, now_s: float) -> tuple[SafetyState, str]:

@@ -193,6 +193,7 @@ class Loop:
                 view.sensor_view(quality, samples.get(quality.sensor), self._perception.decoder.dialect_of, now_s)
                 for quality in frame.sensors
             ),
+            people=tuple(person for seen in heard.bodies if (person := view.person_view(seen))),
             body=view.body_view(frame.fused),
             healthy=view.healthy_view(frame.healthy, frame),
             target=view.target_view(frame.target, self._build, frame.trunk),

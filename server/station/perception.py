@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 from dataclasses import dataclass
 
+from fusion.align.identity import BodyInView
 from fusion.formats.decoder import Decoder
 from fusion.messages import Packet, PipelineFrame, SkeletonSample
 from fusion.pipeline import Pipeline, PipelineSettings
@@ -22,6 +23,8 @@ class Heard:
 
     samples: tuple[SkeletonSample, ...]
     frame: PipelineFrame
+    bodies: tuple[BodyInView, ...] = ()
+    """Everybody in view."""
 
 
 class Perception:
@@ -48,9 +51,9 @@ class Perception:
         self.healthy_side = healthy_side
         self._pipeline.treat(healthy_side)
 
-    def follow(self, sensor: str, body: str) -> None:
-        """A person says which body is the patient."""
-        self._pipeline.follow(sensor, body)
+    def follow(self, sensor: str, body: str) -> bool:
+        """A person says which body is the patient; tells whether it is another one than before."""
+        return self._pipeline.follow(sensor, body)
 
     def begin_anew(self) -> None:
         """Forget sensors and body: other sensors send now."""
@@ -64,7 +67,7 @@ class Perception:
             self._forget_if_silent(samples, now_s)
             for sample in samples:
                 self._pipeline.take(sample)
-            return Heard(samples, self._pipeline.step(now_s))
+            return Heard(samples, self._pipeline.step(now_s), self._pipeline.bodies(now_s))
         except Exception:
             log.exception("perception failed and begins anew")
             self.errors += 1

@@ -8,6 +8,8 @@ from math import isfinite
 
 import numpy as np
 
+from fusion.align.bodies import Verdict
+from fusion.align.identity import BodyInView
 from fusion.kinematics.angles import arm_points_in_trunk, swing_from_direction
 from fusion.messages import (
     AlignedSample,
@@ -21,7 +23,7 @@ from fusion.messages import (
     TrunkFrame,
 )
 from fusion.skeleton import Side, arm
-from server.messages import ArmView, BodyView, ExoView, Point, SensorView
+from server.messages import ArmView, BodyView, ExoView, PersonView, Point, SensorView
 from server.station.exo.driver import DriveCommand, DriveReading, Joints
 from server.station.exo.safety import SafetyState
 
@@ -75,6 +77,22 @@ def sensor_view(
         warnings=quality.warnings,
         position_in_room=_point(sample.lens_in_room.tolist()) if sample else None,
         joints_in_room=_points(sample.positions_in_room) if sample else (),
+    )
+
+
+def person_view(seen: BodyInView) -> PersonView | None:
+    """A body in view; None where it has no place."""
+    in_sensor = _point(seen.centre_in_sensor.tolist())
+    if in_sensor is None:
+        return None
+    return PersonView(
+        sensor=seen.sensor,
+        body=seen.body,
+        place_in_sensor=in_sensor,
+        place_in_room=None if seen.centre_in_room is None else _point(seen.centre_in_room.tolist()),
+        is_patient=seen.verdict is Verdict.PATIENT,
+        confirmed=seen.confirmed,
+        reason=seen.verdict.value,
     )
 
 

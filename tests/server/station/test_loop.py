@@ -7,14 +7,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hand_cranked import HandCranked
+from hand_cranked import DT_S, HandCranked
 from station_samples import patient_limits
 
 from fusion.messages import Packet
 from fusion.recording.reader import read_recording
 from fusion.skeleton import Side
 from fusion.virtual_patient.anatomy import ArmPose
-from fusion.virtual_patient.patient import PoseGoal
+from fusion.virtual_patient.patient import PoseGoal, VirtualPatient
+from fusion.virtual_patient.trial import sensors_for
 from server.messages import (
     CloseSession,
     DriveState,
@@ -249,11 +250,44 @@ def test_following_a_body_is_answered() -> None:
     assert rig.ask(FollowBody, sensor="s1", body="1").accepted
 
 
+def beside(rig: HandCranked, seconds: float) -> LiveTick:
+    """Run with a visitor who stands nearly a metre beside the patient, number 9 in both sensors."""
+    visitor, sensors = VirtualPatient(Side.RIGHT, 5), sensors_for(Side.RIGHT, 5)
+    for _ in range(round(seconds / DT_S)):
+        positions = visitor.step(DT_S) + np.array([0.9, 0.0, 0.0])
+        for address, sensor in zip(rig.addresses, sensors, strict=True):
+            sample = sensor.see(positions, visitor.t_s)
+            if sample is not None:
+                rig.send(address, replace(sample, body="9"))
+        rig.tick()
+    return rig.last
+
+
+def test_everybody_in_view_is_told_and_confirming_the_patient_holds_nothing() -> None:
+    rig = engaged()
+    told = {(one.sensor, one.body): one for one in beside(rig, 1.0).people}
+    assert {key: one.is_patient for key, one in told.items()} == {
+        ("s1", "1"): True,
+        ("s2", "2"): True,
+        ("s1", "9"): False,
+        ("s2", "9"): False,
+    }
+    assert not any(one.confirmed for one in told.values())
+    assert told["s1", "9"].reason == "another person: seen beside the patient"
+    places = [np.array(told[key].place_in_room) for key in (("s1", "1"), ("s2", "2"), ("s1", "9"))]
+    assert np.linalg.norm(places[0] - places[1]) < 0.15
+    assert np.linalg.norm(places[0] - places[2]) > 0.6
+    assert rig.ask(FollowBody, sensor="s1", body="1").state is DriveState.ENGAGED
+    assert [one.body for one in rig.last.people if one.confirmed] == ["1"]
+
+
 def test_sr5_choosing_another_body_holds_until_a_person_resumes() -> None:
     rig = engaged()
-    assert rig.ask(FollowBody, sensor="s1", body="1").state is DriveState.HOLD
+    beside(rig, 1.0)
+    assert rig.ask(FollowBody, sensor="s1", body="9").state is DriveState.HOLD
     assert "followed" in rig.last.reason
-    assert rig.run(4.0).state is DriveState.HOLD
+    assert beside(rig, 6.0).state is DriveState.HOLD
+    assert {one.body for one in rig.last.people if one.is_patient} == {"9"}
     assert rig.ask(Resume).accepted, rig.last.blockers
 
 

@@ -860,6 +860,8 @@ export interface components {
             index: number;
             limits: components["schemas"]["JointLimits"][];
             may_enable: boolean;
+            /** @default [] */
+            people: components["schemas"]["PersonView"][];
             reason: string;
             sensors: components["schemas"]["SensorView"][];
             session: string;
@@ -1071,6 +1073,27 @@ export interface components {
             p99_s: number | null;
             /** Samples */
             samples: number;
+        };
+        /**
+         * PersonView
+         * @description A body that a sensor sees, for the therapist to say who the patient is.
+         */
+        PersonView: {
+            body: string;
+            confirmed: boolean;
+            is_patient: boolean;
+            place_in_room: [
+                number,
+                number,
+                number
+            ] | null;
+            place_in_sensor: [
+                number,
+                number,
+                number
+            ];
+            reason: string;
+            sensor: string;
         };
         /**
          * Screen
