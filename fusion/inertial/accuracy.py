@@ -15,6 +15,7 @@ from scipy.spatial.transform import Rotation
 from fusion.geometry import Floats
 from fusion.inertial.arm import ArmSensors, InertialArm, track_arm
 from fusion.inertial.chain import CHAIN_JOINTS
+from fusion.inertial.long_axes import from_movement, from_pose
 from fusion.inertial.orientation import orient
 from fusion.inertial.pose import find_pose
 from fusion.inertial.simulation import SensorErrors, SimulatedArm, simulate_arm
@@ -40,16 +41,19 @@ class JointAccuracy:
     """Mean over runs and axes of Pearson's coefficient, as found: nothing is fitted to the truth first."""
 
 
-def track_simulated(truth: SimulatedArm) -> InertialArm:
-    """The inertial arm of a simulated one."""
-    sensors = ArmSensors(*(orient(sensor) for sensor in truth.sensors))
-    pose = find_pose((sensors.upper_arm, sensors.forearm, sensors.hand))
-    return track_arm(Side.RIGHT, sensors, truth.lengths, pose)
+def track_simulated(truth: SimulatedArm, by_movement: bool = False) -> InertialArm:
+    """The inertial arm of a simulated one, calibrated from the pose at its beginning or from its movement."""
+    upper, forearm, hand = (orient(sensor) for sensor in truth.sensors)
+    if by_movement:
+        axes = from_movement(upper, forearm, hand)
+    else:
+        axes = from_pose(upper, forearm, hand, find_pose((upper, forearm, hand)))
+    return track_arm(Side.RIGHT, ArmSensors(upper, forearm, hand), truth.lengths, axes)
 
 
-def joint_accuracy(truths: Iterable[SimulatedArm]) -> tuple[JointAccuracy, ...]:
+def joint_accuracy(truths: Iterable[SimulatedArm], by_movement: bool = False) -> tuple[JointAccuracy, ...]:
     """Errors of elbow, wrist and hand; the shoulder is the origin of both and has none."""
-    pairs = [(truth.positions, track_simulated(truth).positions) for truth in truths]
+    pairs = [(truth.positions, track_simulated(truth, by_movement).positions) for truth in truths]
     return tuple(_joint(number, pairs) for number in range(1, len(CHAIN_JOINTS)))
 
 
@@ -95,5 +99,10 @@ def _correlation(truth: Floats, found: Floats) -> float:
 
 
 if __name__ == "__main__":
-    for title, errors in (("The sensors' own errors", SensorErrors()), ("Worn on skin, after a rough pose", WORN)):
-        print(f"{title}\n\n{table(joint_accuracy(simulate_arm(seed, errors=errors) for seed in SEEDS))}\n")
+    for title, errors, by_movement in (
+        ("The sensors' own errors", SensorErrors(), False),
+        ("Worn on skin, after a rough pose", WORN, False),
+        ("The sensors' own errors, calibrated from movement", SensorErrors(), True),
+    ):
+        found = joint_accuracy((simulate_arm(seed, errors=errors) for seed in SEEDS), by_movement)
+        print(f"{title}\n\n{table(found)}\n")

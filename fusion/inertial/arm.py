@@ -13,8 +13,8 @@ from fusion.errors import InputError
 from fusion.geometry import Floats
 from fusion.inertial.chain import ArmAngles, joint_positions
 from fusion.inertial.heading import Heading, Hinge, find_hinge, find_wrist_heading
+from fusion.inertial.long_axes import LongAxes
 from fusion.inertial.orientation import Oriented
-from fusion.inertial.pose import Pose
 from fusion.messages import ArmLengths
 from fusion.skeleton import Side
 
@@ -43,9 +43,9 @@ class InertialArm:
     t_s: Floats  # (T,)
     angles: ArmAngles
     positions: Floats  # (T, 4, 3) m: shoulder, elbow, wrist, hand; x to the right, y up, z to the back
-    pose: Pose
+    long_axes: LongAxes
     hanging_flexion_rad: float
-    """How far the elbow was bent while the arm hung, as learnt from its straightest moments."""
+    """How far the elbow was bent while the arm hung, as learnt from its straightest moments; 0 without a pose."""
     elbow_heading: Heading
     wrist_heading: Heading
     off_hinge_rad: float
@@ -68,55 +68,51 @@ def sides_worn(sites: Sequence[str]) -> tuple[Side, ...]:
     return worn
 
 
-def track_arm(side: Side, sensors: ArmSensors, lengths: ArmLengths, pose: Pose) -> InertialArm:
+def track_arm(side: Side, sensors: ArmSensors, lengths: ArmLengths, long_axes: LongAxes) -> InertialArm:
     """Follow an arm.
 
-    x of the arm's frame is where the elbow's axis pointed while the arm hung: no inertial sensor without magnetometer
-    knows another horizontal direction, and it drifts with the upper arm's gyroscope.
+    x of the arm's frame is where the elbow's axis pointed while the arm hung (or in the first seconds): no inertial
+    sensor without magnetometer knows another horizontal direction, and it drifts with the upper arm's gyroscope.
 
     Raises:
         InputError: the arm hardly moved, so neither axis nor headings can be learnt.
     """
     upper, forearm, hand = sensors.upper_arm, sensors.forearm, sensors.hand
-    hinge = find_hinge(upper, forearm, pose.up(upper), pose.up(forearm))
-    wrist = find_wrist_heading(forearm, hand, pose.up(forearm))
-    upper_turn, forearm_turn, hand_turn = _segment_rotations(sensors, hinge, wrist, pose)
-    hanging_flexion_rad = _hanging_flexion_rad(upper_turn, forearm_turn)
+    hinge = find_hinge(upper, forearm, long_axes.upper_arm, long_axes.forearm)
+    wrist = find_wrist_heading(forearm, hand, long_axes.forearm)
+    upper_turn, forearm_turn, hand_turn = _segment_rotations(sensors, hinge, wrist, long_axes)
+    hanging_flexion_rad = 0.0 if long_axes.pose is None else _hanging_flexion_rad(upper_turn, forearm_turn)
     angles, off_hinge = _angles(upper_turn, forearm_turn * _about_x(hanging_flexion_rad), hand_turn)
     positions = joint_positions(angles, lengths)
     off_hinge_rad = float(np.sqrt(np.mean(off_hinge**2)))
     return InertialArm(
-        side, upper.t_s, angles, positions, pose, hanging_flexion_rad, hinge.heading, wrist, off_hinge_rad
+        side, upper.t_s, angles, positions, long_axes, hanging_flexion_rad, hinge.heading, wrist, off_hinge_rad
     )
 
 
 def _segment_rotations(
-    sensors: ArmSensors, hinge: Hinge, wrist: Heading, pose: Pose
+    sensors: ArmSensors, hinge: Hinge, wrist: Heading, long_axes: LongAxes
 ) -> tuple[Rotation, Rotation, Rotation]:
     """Turns of upper arm, forearm and hand since they hung, in the arm's frame, (T,) each."""
-    upper = sensors.upper_arm.sensor_to_earth
+    t_s, upper = sensors.upper_arm.t_s, sensors.upper_arm.sensor_to_earth
     forearm = hinge.heading.rotation() * sensors.forearm.sensor_to_earth
     hand = hinge.heading.rotation() * wrist.rotation() * sensors.hand.sensor_to_earth
-    x_in_earth = _hinge_while_hanging(sensors.upper_arm, hinge, pose) * _sign(upper, forearm, hinge, sensors, pose)
-    earth_to_arm = _frame(x_in_earth, np.array([0.0, 0.0, 1.0])).inv()
-    hung = pose.at(sensors.upper_arm.t_s)
-    ups = [pose.up(segment) for segment in (sensors.upper_arm, sensors.forearm, sensors.hand)]
+    x_in_earth = upper.apply(hinge.axis) * _sign(upper, forearm, hinge, long_axes)  # (T, 3)
+    earth_to_arm = _frame(x_in_earth[long_axes.begin(t_s)].mean(axis=0), np.array([0.0, 0.0, 1.0])).inv()
+    straight = hand.inv().apply(forearm.apply(long_axes.forearm)).mean(axis=0)
+    ups = [long_axes.upper_arm, long_axes.forearm, straight if long_axes.hand is None else long_axes.hand]
+    counted = long_axes.counted(t_s)
     rotations = []
     for rotation, up in zip((upper, forearm, hand), ups, strict=True):
-        x_in_sensor = rotation[hung].inv().apply(x_in_earth).mean(axis=0)
-        rotations.append(earth_to_arm * rotation * _frame(x_in_sensor, up))
+        x_in_sensor = rotation[counted].inv().apply(x_in_earth[counted]).mean(axis=0)
+        rotations.append(earth_to_arm * rotation * _frame(x_in_sensor, up / np.linalg.norm(up)))
     return rotations[0], rotations[1], rotations[2]
 
 
-def _hinge_while_hanging(upper: Oriented, hinge: Hinge, pose: Pose) -> Floats:
-    x: Floats = upper.sensor_to_earth[pose.at(upper.t_s)].apply(hinge.axis).mean(axis=0)
-    return x
-
-
-def _sign(upper: Rotation, forearm: Rotation, hinge: Hinge, sensors: ArmSensors, pose: Pose) -> float:
+def _sign(upper: Rotation, forearm: Rotation, hinge: Hinge, long_axes: LongAxes) -> float:
     """The sign of the hinge with which elbows bend forward: mostly the forearm is in front of the upper arm."""
-    axis, up = upper.apply(hinge.axis), upper.apply(pose.up(sensors.upper_arm))
-    bend = np.sum(np.cross(up, forearm.apply(pose.up(sensors.forearm))) * axis, axis=1)
+    axis, up = upper.apply(hinge.axis), upper.apply(long_axes.upper_arm)
+    bend = np.sum(np.cross(up, forearm.apply(long_axes.forearm)) * axis, axis=1)
     return 1.0 if bend.mean() >= 0 else -1.0
 
 

@@ -15,6 +15,7 @@ from fusion.errors import InputError
 from fusion.inertial.arm import SEGMENTS, ArmSensors, InertialArm, sides_worn, track_arm
 from fusion.inertial.chain import CHAIN_JOINTS
 from fusion.inertial.lengths import USUAL, lengths_seen
+from fusion.inertial.long_axes import from_movement, from_pose
 from fusion.inertial.orientation import Inertial, Oriented, orient, together
 from fusion.inertial.pose import checked_pose, find_pose
 from fusion.inertial.stills import Return, compared
@@ -36,6 +37,9 @@ def arm(
         tuple[float, float] | None,
         typer.Option(metavar="FROM TO", help="When the arms hung still; else looked for in the first 10 s."),
     ] = None,
+    by_movement: Annotated[
+        bool, typer.Option("--by-movement", help="Calibrate from how the arm moves instead; the trunk must keep still.")
+    ] = False,
     upper_arm: Length = None,
     forearm: Length = None,
     hand: Length = None,
@@ -49,11 +53,13 @@ def arm(
     source = read_recording(recording)
     given = (upper_arm, forearm, hand)
     _check_lengths(given)
+    if by_movement and pose is not None:
+        raise InputError("--pose and --by-movement exclude each other", "one of them", "leave one out")
     sides = sides_worn([stream.site for stream in source.imu_streams])
     arms = []
     with Progress(console=console, transient=True) as progress:
         for side in progress.track(sides, description=source.name):
-            arms.append(_tracked(source, side, given, pose))
+            arms.append(_tracked(source, side, given, pose, by_movement))
     _write([found for _, found in arms], out)
     for sensors, found in arms:
         console.print(_summary(found), highlight=False, markup=False, soft_wrap=True)
@@ -63,19 +69,26 @@ def arm(
 
 
 def _tracked(
-    source: Recording, side: Side, given: Sequence[float | None], pose: tuple[float, float] | None
+    source: Recording,
+    side: Side,
+    given: Sequence[float | None],
+    pose: tuple[float, float] | None,
+    by_movement: bool,
 ) -> tuple[ArmSensors, InertialArm]:
-    upper, forearm, hand = _oriented(source, side)
-    segments = (upper, forearm, hand)
-    when = find_pose(segments) if pose is None else checked_pose(segments, *pose)
-    sensors = ArmSensors(*segments)
-    return sensors, track_arm(side, sensors, _lengths(source, side, given), when)
+    worn = _oriented(source, side)
+    if by_movement:
+        axes = from_movement(*worn)
+    else:
+        axes = from_pose(*worn, find_pose(worn) if pose is None else checked_pose(worn, *pose))
+    sensors = ArmSensors(*worn)
+    return sensors, track_arm(side, sensors, _lengths(source, side, given), axes)
 
 
-def _oriented(source: Recording, side: Side) -> list[Oriented]:
+def _oriented(source: Recording, side: Side) -> tuple[Oriented, Oriented, Oriented]:
     by_site = {stream.site: stream for stream in source.imu_streams}
     worn = [by_site[f"{segment}-{side.value}"] for segment in SEGMENTS]
-    return [orient(imu) for imu in together([Inertial(s.site, s.t_s, s.gyro_rad_s, s.accel_m_s2) for s in worn])]
+    upper, forearm, hand = together([Inertial(s.site, s.t_s, s.gyro_rad_s, s.accel_m_s2) for s in worn])
+    return orient(upper), orient(forearm), orient(hand)
 
 
 def _check_lengths(given: Sequence[float | None]) -> None:
@@ -111,10 +124,12 @@ def _lines(arms: Sequence[InertialArm]) -> Iterator[str]:
 
 def _summary(found: InertialArm) -> str:
     bent = np.degrees(found.angles.elbow_flexion_rad)
-    hung = f"hung from {found.pose.from_s:.1f} to {found.pose.to_s:.1f} s"
+    pose = found.long_axes.pose
+    hung = "calibrated from movement" if pose is None else f"hung from {pose.from_s:.1f} to {pose.to_s:.1f} s"
     bend = f"bent by {np.degrees(found.hanging_flexion_rad):.0f}°"
     off = f"off the hinge {np.degrees(found.off_hinge_rad):.0f}° rms"
-    return f"{found.side.value}: {hung}, {bend}; elbow {bent.min():.0f} to {bent.max():.0f}°, {off}"
+    begun = hung if pose is None else f"{hung}, {bend}"
+    return f"{found.side.value}: {begun}; elbow {bent.min():.0f} to {bent.max():.0f}°, {off}"
 
 
 def _came_back(found: Return) -> str:

@@ -13,6 +13,7 @@ from fusion.inertial.accuracy import PAPER_CORRELATION, WORN, joint_accuracy, ta
 from fusion.inertial.arm import SEGMENTS, ArmSensors, InertialArm, sides_worn, track_arm
 from fusion.inertial.comparison import compare_like_liu, place
 from fusion.inertial.lengths import USUAL
+from fusion.inertial.long_axes import from_movement, from_pose
 from fusion.inertial.orientation import Inertial, Oriented, orient
 from fusion.inertial.pose import checked_pose, find_pose
 from fusion.inertial.simulation import SensorErrors, SimulatedArm, simulate_arm
@@ -43,6 +44,33 @@ def test_worn_on_skin_after_a_rough_pose_it_still_correlates_better_than_the_pap
     assert table(found).count("\n") == 5
 
 
+def test_movement_alone_finds_how_the_segments_lie_in_sensors_that_are_turned_anyhow() -> None:
+    """The mounting is drawn at random; the truth is what a perfect pose of the same arm says."""
+    for seed in (1, 2):
+        perfect = simulate_arm(seed, 40.0, errors=PERFECT)
+        hung = [orient(imu) for imu in perfect.sensors]
+        truth = from_pose(hung[0], hung[1], hung[2], find_pose(hung))
+        moved = [orient(imu) for imu in simulate_arm(seed, 40.0).sensors]
+        late = [replace(s, t_s=s.t_s[800:], rate_rad_s=s.rate_rad_s[800:], up=s.up[800:]) for s in moved]  # no pose
+        found = from_movement(late[0], late[1], late[2])
+        assert found.upper_arm @ truth.upper_arm > np.cos(np.radians(4))
+        assert found.forearm @ truth.forearm > np.cos(np.radians(2))
+
+
+def test_calibrated_from_movement_the_arm_is_as_near_as_from_a_pose_but_for_a_constant_turn() -> None:
+    found = joint_accuracy((simulate_arm(seed, 40.0) for seed in (1, 2)), by_movement=True)
+    assert all(joint.turned_rms_m < 0.03 for joint in found[:2])
+    assert found[2].turned_rms_m < 0.06  # a hand is not straight on average
+
+
+def test_a_shoulder_that_moves_is_no_place_to_calibrate_from(simulated: SimulatedArm) -> None:
+    segments = [orient(imu) for imu in simulated.sensors]
+    shaken = 3.0 * np.sin(np.arange(len(segments[0].t_s)) / 20)[:, None]
+    worn = [replace(s, up=s.up + s.sensor_to_earth.inv().apply(shaken * [1.0, 0.0, 0.5])) for s in segments]
+    with pytest.raises(InputError, match="shoulder of 'upper-arm' moved"):
+        from_movement(worn[0], worn[1], worn[2])
+
+
 def test_angles_are_those_of_the_simulated_arm(simulated: SimulatedArm) -> None:
     found = track_simulated(simulated).angles
     for name in ("elbow_flexion_rad", "pronation_rad", "wrist_flexion_rad", "wrist_deviation_rad"):
@@ -68,7 +96,8 @@ def test_headings_of_the_earth_frames_do_not_matter(simulated: SimulatedArm) -> 
         for s, a in zip(segments, (0, 130, -75), strict=True)
     ]
     one, other = (
-        track_arm(Side.LEFT, ArmSensors(*s), simulated.lengths, find_pose(s)).positions for s in (segments, turned)
+        track_arm(Side.LEFT, ArmSensors(*s), simulated.lengths, from_pose(*s, find_pose(s))).positions
+        for s in (segments, turned)
     )
     assert_allclose(one, other, atol=2e-3)
 
@@ -153,7 +182,7 @@ def _tracked(source: Recording, side: Side) -> tuple[ArmSensors, InertialArm]:
     worn = [streams[f"{segment}-{side.value}"] for segment in SEGMENTS]
     segments = [orient(Inertial(s.site, s.t_s, s.gyro_rad_s, s.accel_m_s2)) for s in worn]
     sensors = ArmSensors(*segments)
-    return sensors, track_arm(side, sensors, USUAL, find_pose(segments))
+    return sensors, track_arm(side, sensors, USUAL, from_pose(*segments, find_pose(segments)))
 
 
 def _unit_up(segment: Oriented, at: np.ndarray) -> np.ndarray:
