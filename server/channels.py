@@ -224,9 +224,9 @@ class ServiceChannels:
             yield await self.event()
 
     async def connected(self, timeout_s: float) -> bool:
-        """Wait until a station can take wishes."""
+        """Wait until a station can take wishes, and a stop."""
         end = asyncio.get_running_loop().time() + timeout_s
-        while not self._wishes.poll(0, zmq.POLLOUT):
+        while not all(socket.poll(0, zmq.POLLOUT) for socket in (self._wishes, self._stop)):
             if asyncio.get_running_loop().time() > end:
                 return False
             await asyncio.sleep(0.01)
