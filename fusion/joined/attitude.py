@@ -1,13 +1,8 @@
 """How an inertial sensor sits on its segment, and how its earth stands in the room: learnt while cameras see the bones.
 
 A bone's vector in the room is v = R q b: q turns from the sensor into the earth that its filter believes in (z up,
-heading its own), R from that earth into the room, and b is the bone in the sensor's axes. Both are unknown, and
-Σ |v − R q b|² is least where, by turns,
-
-    b = mean of q' R' v                      for every bone of the segment
-    R = the rotation nearest to Σ v (q b)'   (Wahba's problem)
-
-Both need only the sums Σ v ⊗ q, so the fit is recursive and forgets: R follows the heading's drift. |b| is the bone's
+heading its own), R from that earth into the room, and b is the bone in the sensor's axes. R and b are fitted to what
+cameras say of v (`bone_fit`), recursively and with a memory, so that R follows the heading's drift. |b| is the bone's
 length; noise of the cameras does not lengthen it, as it averages vectors. How well (R, b) are known is Fisher's
 information of the same samples, from Σ q ⊗ q at the newest fit, so poses never seen have wide bounds. (Summed up as
 samples came, each at the fit of its time, it would believe in what only changed fits had shown.)
@@ -22,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fusion.geometry import skew
+from fusion.joined.bone_fit import UPRIGHT, Sums, fit
 from fusion.messages import Floats
 
 Flags = NDArray[np.bool_]
@@ -37,24 +33,13 @@ UP_STD_RAD: Final = 0.15
 """The room's y is the reference camera's, which may look up or down by so much."""
 UNLEARNT_BONE_M: Final = 0.3
 """What a bone's vector may be before anything is known (one sigma per axis)."""
-LEAST_STD_M: Final = 0.02
-"""No camera is better than this, however smooth it looks."""
 SIGMAS: Final = 3.0
 SKIN_RAD: Final = 0.12
 """How far skin and straps let a sensor turn against its bone, and the filter's inclination errs."""
 DRIFT_RAD_S: Final = 0.002
 """How fast a heading may drift while no camera watches."""
-UP_IN_ROOM: Final = np.array([0.0, 1.0, 0.0])
-UP_IN_EARTH: Final = np.array([0.0, 0.0, 1.0])
-UP_WEIGHT: Final = 0.5
-"""What up is worth in the fit, in m²: as five samples of an upper arm."""
-ROUNDS: Final = 6
 LEVI_CIVITA: Final = -skew(np.eye(3))
 """(w × x)_i = Σ ε_ikm w_k x_m."""
-_UPRIGHT: Final = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
-_HEADINGS: Final = np.stack(
-    [np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]]) @ _UPRIGHT for c, s in ((1, 0), (0, 1), (-1, 0), (0, -1))]
-)
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,9 +49,7 @@ class Attitude:
     t_s: float
     """When cameras last saw any of the bones beside it; -inf never."""
     solved_s: float
-    sums: Floats  # (B, 3, 3, 3) Σ v_i q_jk
-    squares: Floats  # (B,) Σ |v|²
-    count: Floats  # (B,) faded number of samples
+    sums: Sums
     turns: Floats  # (B, 3, 3, 3, 3) Σ q_ij q_kl
     earth_to_room: Floats  # (3, 3) R
     bones: Floats  # (B, 3) m in the sensor
@@ -75,7 +58,7 @@ class Attitude:
     @property
     def known(self) -> bool:
         """Whether every bone was seen often enough."""
-        return bool((self.count >= LEAST_SAMPLES).all())
+        return bool((self.sums.count >= LEAST_SAMPLES).all())
 
 
 def unknown(bones: int) -> Attitude:
@@ -83,11 +66,9 @@ def unknown(bones: int) -> Attitude:
     return Attitude(
         -np.inf,
         -np.inf,
-        np.zeros((bones, 3, 3, 3)),
-        np.zeros(bones),
-        np.zeros(bones),
+        Sums.nothing(bones),
         np.zeros((bones, 3, 3, 3, 3)),
-        _UPRIGHT,
+        UPRIGHT,
         np.zeros((bones, 3)),
         np.diag(1 / _prior(bones)),
     )
@@ -110,9 +91,11 @@ def learn(attitude: Attitude, t_s: float, sensor_to_earth: Floats, vectors: Floa
     taken = replace(
         attitude,
         t_s=t_s,
-        sums=keep * attitude.sums + vectors[:, :, None, None] * sensor_to_earth,
-        squares=keep * attitude.squares + np.sum(vectors**2, axis=1),
-        count=keep * attitude.count + seen,
+        sums=Sums(
+            keep * attitude.sums.products + vectors[:, :, None, None] * sensor_to_earth,
+            keep * attitude.sums.squares + np.sum(vectors**2, axis=1),
+            keep * attitude.sums.count + seen,
+        ),
         turns=keep * attitude.turns + np.multiply.outer(seen, np.multiply.outer(sensor_to_earth, sensor_to_earth)),
     )
     return _solved(taken) if t_s >= attitude.solved_s + SOLVE_EVERY_S else taken
@@ -156,7 +139,7 @@ def _covariance(attitude: Attitude, bones: Floats, noise_m: float) -> Floats:
         own = slice(3 + 3 * bone, 6 + 3 * bone)
         information[:3, own] = np.einsum("ikm,kjml,j->il", LEVI_CIVITA, turns, vector)
         information[own, :3] = information[:3, own].T
-        information[own, own] = attitude.count[bone] * np.eye(3)
+        information[own, own] = attitude.sums.count[bone] * np.eye(3)
     return np.asarray(np.linalg.inv(information / (noise_m**2 * CORRELATED) + np.diag(_prior(count))))
 
 
@@ -167,29 +150,11 @@ def _prior(bones: int) -> Floats:
 
 
 def _solved(attitude: Attitude) -> Attitude:
-    """R and b by turns, from where they were and from four headings; the best fit counts."""
-    count = np.maximum(attitude.count, 1e-9)[None, :, None]
-    up = UP_WEIGHT * np.outer(UP_IN_ROOM, UP_IN_EARTH)
-    turns = np.stack([attitude.earth_to_room, *_HEADINGS])  # (S, 3, 3)
-    for _ in range(ROUNDS):
-        bones = np.einsum("bijk,sij->sbk", attitude.sums, turns) / count
-        turns = _nearest_rotations(np.einsum("bijk,sbk->sij", attitude.sums, bones) + up)
-    bones = np.einsum("bijk,sij->sbk", attitude.sums, turns) / count
-    fit = np.sum(attitude.count[:, None] * bones**2, axis=(1, 2)) + 2 * np.einsum("sij,ij->s", turns, up)
-    best = int(np.argmax(fit))
-    left = attitude.squares.sum() - np.sum(attitude.count[:, None] * bones[best] ** 2)
-    noise_m = max(float(np.sqrt(max(left, 0.0) / (3 * attitude.count.sum()))), LEAST_STD_M)
+    found = fit(attitude.sums, attitude.earth_to_room)
     return replace(
         attitude,
         solved_s=attitude.t_s,
-        earth_to_room=turns[best],
-        bones=bones[best],
-        covariance=_covariance(attitude, bones[best], noise_m),
+        earth_to_room=found.earth_to_room,
+        bones=found.bones,
+        covariance=_covariance(attitude, found.bones, found.noise_m),
     )
-
-
-def _nearest_rotations(matrices: Floats) -> Floats:
-    """(S, 3, 3) the rotations that maximise trace(R' M)."""
-    u, _, vt = np.linalg.svd(matrices)
-    u[:, :, 2] *= np.sign(np.linalg.det(u @ vt))[:, None]
-    return np.asarray(u @ vt)

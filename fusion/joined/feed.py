@@ -49,10 +49,19 @@ def samples_of(recording: Recording) -> OtherSamples:
     unusable: dict[str, str] = {}
     for name, source in _sources(recording):
         try:
-            used.append((name, source()))
+            used.append((name, _while_seen(name, source(), recording)))
         except InputError as error:
             unusable[name] = str(error)
     return OtherSamples(tuple(used), unusable)
+
+
+def _while_seen(name: str, samples: Sequence[OtherSample], recording: Recording) -> Sequence[OtherSample]:
+    """The samples, if any were taken while cameras looked: a clock of its own cannot be told from another day."""
+    frames = next((stream.samples for stream in recording.skeleton_streams if stream.primary and stream.samples), ())
+    if frames and not any(frames[0].t_s <= sample.t_s <= frames[-1].t_s for sample in samples):
+        what = f"'{name}' has no sample between the first and the last frame of '{frames[0].sensor}'"
+        raise InputError(what, "times on the reference sensor's clock", "mend t_s")
+    return samples
 
 
 Source = Callable[[], Sequence[OtherSample]]

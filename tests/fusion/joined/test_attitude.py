@@ -66,7 +66,7 @@ def test_a_silence_of_the_cameras_widens_the_tolerance_and_forgets_nothing() -> 
     soon, late = (attitude.tolerances_m(known, np.eye(3), known.t_s + silent_s) for silent_s in (1.0, 60.0))
     assert (late > soon).all()
     after = attitude.learn(known, known.t_s + 60.0, np.eye(3), np.zeros((2, 3)), np.array([True, False]))
-    assert after.count[1] > 0.9 * known.count[1]
+    assert after.sums.count[1] > 0.9 * known.sums.count[1]
 
 
 def test_a_heading_that_drifts_is_followed() -> None:

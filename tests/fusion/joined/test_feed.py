@@ -44,6 +44,12 @@ def test_a_gap_makes_a_stream_unusable_and_says_where(everything: Recording) -> 
     assert "gap" in found.unusable["upper-back"]
 
 
+def test_another_clock_is_no_clock(everything: Recording) -> None:
+    late = replace(everything.imu_streams[0], t_s=everything.imu_streams[0].t_s + 1e6)
+    found = samples_of(replace(everything, imu_streams=(late,), range_streams=()))
+    assert "clock" in found.unusable["upper-back"]
+
+
 def test_the_anchors_frame_has_z_up() -> None:
     up = in_anchors(np.array([[0.0, 1.0, 0.0]])) - in_anchors(np.zeros((1, 3)))
     np.testing.assert_allclose(up, [[0.0, 0.0, 1.0]], atol=1e-12)
