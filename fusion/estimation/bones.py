@@ -64,22 +64,28 @@ def judge(bones: Records, measured: Measurement) -> Flags:
         length_m = distance(row(measured.positions, near), row(measured.positions, far))
         wandering[far] = is_wrong(bone, length_m) or (bone.hangs and wandering[near])
         if measured.tracked[near] and measured.tracked[far]:
-            learn(bone, length_m)
+            learn(bone, length_m, FORGET_FRAMES)
     return wandering
 
 
 @kernel
 def is_wrong(bone: Record, length_m: float) -> bool:
     """Whether a length is not the bone's, once that is known."""
-    limit_m = max(LEAST_MISFIT_M, DEVIATIONS * bone.deviation_m)
-    return bool(bone.frames >= LEARN_FRAMES and abs(length_m - bone.length_m) > limit_m)
+    return bool(bone.frames >= LEARN_FRAMES and abs(length_m - bone.length_m) > tolerance_m(bone))
 
 
 @kernel
-def learn(bone: Record, length_m: float) -> None:
-    """Follow the length: a running mean with bounded steps."""
+def tolerance_m(bone: Record) -> float:
+    """How far off a length may be before it is wrong."""
+    deviation_m: float = bone.deviation_m
+    return max(LEAST_MISFIT_M, DEVIATIONS * deviation_m)
+
+
+@kernel
+def learn(bone: Record, length_m: float, forget_frames: int) -> None:
+    """Follow the length: a running mean, over so many frames at most, with bounded steps."""
     misfit = length_m - bone.length_m
-    share = 1 / min(bone.frames + 1, FORGET_FRAMES)
+    share = 1 / min(bone.frames + 1, forget_frames)
     if bone.frames == 0:
         bone.length_m = length_m
     else:

@@ -46,13 +46,13 @@ def forget(joint: Record) -> None:
 
 
 @kernel
-def predict(joint: Record, from_s: float, to_s: float) -> None:
+def predict(joint: Record, from_s: float, to_s: float, density: float) -> None:
     """Move on: p + v dt, P → F P F' + Q, with the mean halted three frames after the last measurement.
 
-    Q = q [[dt³/3, dt²/2], [dt²/2, dt]], q = a²/30 Hz for a white acceleration of a per frame. The covariance grows
-    through the whole silence, the mean does not fly off. What is not later changes nothing.
+    Q = q [[dt³/3, dt²/2], [dt²/2, dt]], `density` q = a²/30 Hz for a white acceleration of a per frame. The covariance
+    grows through the whole silence, the mean does not fly off. What is not later changes nothing.
     """
-    dt, q = to_s - from_s, ACCELERATION_DENSITY
+    dt, q = to_s - from_s, density
     if not 0 < dt < np.inf:  # an older sample, or the very first
         return
     moving_s = seconds_in_motion(joint.seen_s, from_s, to_s)

@@ -40,6 +40,9 @@ class Heard(NamedTuple):
     position: Vector  # m in room
     tracked: bool
     wandering: bool  # it hangs on a bone whose length is wrong
+    hidden: bool  # the trunk stands between it and the lens
+    from_spine: Vector  # m, from where the same sensor sees the spine, in room
+    spine_seen: bool
 
 
 def sight(sample: AlignedSample, joints: int) -> Sight:

@@ -36,6 +36,12 @@ def widened(a: Vector, by: float) -> Vector:
 
 
 @kernel
+def dot(a: Vector, b: Vector) -> float:
+    """The inner product."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+@kernel
 def length(a: Vector) -> float:
     """|a|."""
     return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2])

@@ -52,8 +52,8 @@ def test_the_set_holds_the_truth_for_every_error_within_table_1(seed: int) -> No
         estimator.update(changed(changed(sample, slice(None), off), gone, state=TrackingState.LOST))
         state = estimator.snapshot()
         assert isinstance(state, SetState)
-        low, high = extents(state.joints)
-        seen = np.isfinite(state.joints["seen_s"])
+        low, high = extents(state.known.joints)
+        seen = np.isfinite(state.known.joints["seen_s"])
         true = body_at(t_s)
         assert ((low <= true + 1e-9) & (true <= high + 1e-9))[seen].all()
 
@@ -64,7 +64,7 @@ def test_the_point_is_in_the_set_and_the_bound_reaches_no_further_than_its_corne
         t_s = 2.0 + ahead_s
         state = estimator.snapshot()
         assert isinstance(state, SetState)
-        joints = state.joints.copy()
+        joints = state.known.joints.copy()
         for joint in joints:
             motion_set.move(joint, t_s - state.t_s)
         low, high = extents(joints)
@@ -79,11 +79,11 @@ def test_a_mean_that_has_left_the_set_is_put_back_into_it() -> None:
     estimator, _ = run(list(both(2.0)))
     state = estimator.snapshot()
     assert isinstance(state, SetState)
-    low, high = extents(state.joints)
+    low, high = extents(state.known.joints)
     for end, beyond in ((high, high + 0.5), (low, low - 0.5)):
-        joints = state.joints.copy()
+        joints = state.known.joints.copy()
         joints["position"] = beyond
-        estimator.restore(replace(state, joints=joints))
+        estimator.restore(replace(state, known=state.known._replace(joints=joints)))
         np.testing.assert_array_equal(estimator.frame(state.t_s).positions_in_room, end)
 
 
@@ -104,7 +104,7 @@ def test_the_order_of_two_sensors_at_one_instant_does_not_matter_within_the_boun
     a, b = one.frame(1.53), other.frame(1.53)
     apart = np.linalg.norm(a.positions_in_room - b.positions_in_room, axis=1)
     assert (apart <= np.minimum(a.bound_m, b.bound_m)).all()
-    assert apart.max() < 0.01
+    assert apart.max() < 0.03
 
 
 def test_a_wrist_that_wanders_flickering_is_refused_while_the_other_sensor_is_sure() -> None:
@@ -167,18 +167,20 @@ def test_an_inferred_joint_leaves_a_wider_bound_than_a_tracked_one() -> None:
     assert bound_m[WRIST] > 2 * bound_m[ELBOW]
 
 
-@pytest.mark.parametrize("away_m", [0.1, 0.3])
-def test_coming_back_makes_no_step_that_a_limb_could_not_make(away_m: float) -> None:
-    """After an occlusion the point goes where the joint is seen, never past it."""
+@pytest.mark.parametrize("later_s", [0.3, 1.0])
+def test_coming_back_makes_no_step_that_a_limb_could_not_make(later_s: float) -> None:
+    """After an occlusion the arm is told where it is seen within three frames, and never past it."""
     estimator, _ = run(list(both(2.0, noise_m=0.0)))
+    arm = [SHOULDER, ELBOW, WRIST, HAND]
     held = estimator.frame(2.4).positions_in_room[WRIST]
-    seen = held + np.array([away_m, 0.0, 0.0])
-    t_s = 2.4
+    seen = body_at(2.4 + later_s)
+    away_m = np.linalg.norm(seen[WRIST] - held)
+    assert away_m > 0.1
     for k in range(6):
         t_s = 2.4 + k * FRAME_S
         sample = sample_at(t_s)
-        estimator.update(changed(sample, WRIST, seen - sample.positions_in_room[WRIST]))
+        estimator.update(changed(sample, arm, seen[arm] - sample.positions_in_room[arm]))
         point = estimator.frame(t_s).positions_in_room[WRIST]
-        assert np.linalg.norm(point - seen) <= away_m + 1e-9
-        assert point[0] <= seen[0] + 0.03
-    assert np.linalg.norm(estimator.frame(t_s).positions_in_room[WRIST] - seen) < 0.03
+        assert np.linalg.norm(point - seen[WRIST]) <= away_m + 1e-9
+        assert (point - seen[WRIST]) @ (seen[WRIST] - held) / away_m <= 0.03
+        assert k < 2 or np.linalg.norm(point - seen[WRIST]) < 0.03

@@ -6,7 +6,7 @@ import numpy as np
 
 from fusion.compiled import Records, record
 from fusion.estimation import bones, trust
-from fusion.estimation.measurement import Flags, read, sight
+from fusion.estimation.measurement import Flags, Heard, read, sight
 from fusion.estimation.trust import STEADY_S
 from fusion.messages import AlignedSample
 from fusion.skeleton import BONES, JOINT_COUNT, TrackingState
@@ -14,6 +14,11 @@ from fusion.skeleton import BONES, JOINT_COUNT, TrackingState
 from .scene import ELBOW, FRAME_S, HAND, SHOULDER, WRIST, body_at, both, changed, sample_at
 
 FOREARM = BONES.index(("ElbowRight", "WristRight"))
+
+
+def heard(tracked: bool = True, wandering: bool = False, hidden: bool = False) -> Heard:
+    nowhere = (0.0, 0.0, 0.0)
+    return Heard(nowhere, tracked, wandering, hidden, nowhere, spine_seen=True)
 
 
 class Sensor:
@@ -33,7 +38,8 @@ class Sensor:
         wandering = bones.judge(self.bones, measured)
         return np.array(
             [
-                bool(measured.given[j]) and trust.judge(word, sample.t_s, bool(measured.tracked[j]), bool(wandering[j]))
+                bool(measured.given[j])
+                and trust.judge(word, sample.t_s, heard(bool(measured.tracked[j]), bool(wandering[j])))
                 for j, word in enumerate(self.words)
             ]
         )
