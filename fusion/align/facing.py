@@ -54,6 +54,11 @@ SURE_AT_FIRST: Final = 1.5
 WALKING_M_S: Final = 0.5, 0.9
 """From the first speed on walking begins to tell the facing; from the second on it tells all it can."""
 WALK_LOOKS_PER_S: Final = 7.0
+LINES: Final = (
+    (INDEX["ShoulderLeft"], INDEX["ShoulderRight"], 1.0),
+    (INDEX["HipLeft"], INDEX["HipRight"], 0.5),
+)
+"""Lines across the body, and their length in shoulders' breadths."""
 FORWARD_SHARE, SURE_WALK = 0.85, 3.0
 """How often brisk walking is forward walking, and how well it then keeps to the facing."""
 
@@ -65,14 +70,16 @@ class ShoulderLine:
     facing_rad: float
     weight: float
     """0 for a line too short to say anything, 1 for a full one."""
-    middle_in_room: Floats  # (3,)
+    middle_m: tuple[float, float]
+    """Its middle in the room's horizontal, x and z."""
 
 
 @dataclass(frozen=True, slots=True)
 class _Named:
-    """What is known of one sensor's names."""
+    """What a sensor said last."""
 
-    exchanged: Floats  # (N,) probability, given ψ
+    row: int
+    """Of the sensor in `Facing.exchanged`."""
     t_s: float
     facing_rad: float
     """Of its latest line."""
@@ -83,6 +90,7 @@ class Facing:
     """The belief at an instant."""
 
     share: Floats  # (N,) probability of each direction
+    exchanged: Floats  # (M, N) probability that a sensor's names are exchanged, given each direction
     sensors: Mapping[str, _Named]
     t_s: float
 
@@ -90,7 +98,7 @@ class Facing:
     def at_first(t_s: float, towards_lens_rad: float) -> Facing:
         """Before anything is known: most likely the person faces the sensor that sees them first [Yao]."""
         share = np.exp(SURE_AT_FIRST * np.cos(DIRECTION_RAD - towards_lens_rad))
-        return Facing(share / share.sum(), {}, t_s)
+        return Facing(share / share.sum(), np.empty((0, DIRECTIONS)), {}, t_s)
 
     @property
     def facing_rad(self) -> float:
@@ -102,7 +110,7 @@ class Facing:
         named = self.sensors.get(sensor)
         if named is None:
             return 0.0
-        exchanged = min(max(float(self.share @ named.exchanged), 1e-9), 1.0 - 1e-9)
+        exchanged = min(max(float(self.share @ self.exchanged[named.row]), 1e-9), 1.0 - 1e-9)
         return log(exchanged / (1.0 - exchanged))
 
     def at(self, t_s: float) -> Facing:
@@ -110,13 +118,8 @@ class Facing:
         dt_s = t_s - self.t_s
         if dt_s <= 0.0:
             return self
-        before = np.array([named.exchanged for named in self.sensors.values()]).reshape(-1, DIRECTIONS)
-        share, exchanged = turned(self.share, before, TURN_RAD_SQRT_S * sqrt(dt_s) * DIRECTIONS / (2 * pi))
-        sensors = {
-            name: _Named(exchanged[m], named.t_s, named.facing_rad)
-            for m, (name, named) in enumerate(self.sensors.items())
-        }
-        return Facing(share, sensors, t_s)
+        spread = TURN_RAD_SQRT_S * sqrt(dt_s) * DIRECTIONS / (2 * pi)
+        return Facing(*turned(self.share, self.exchanged, spread), self.sensors, t_s)
 
     def seen(self, sensor: str, t_s: float, line: ShoulderLine, towards_lens_rad: float) -> Facing:
         """The belief after a sensor's frame; call `at` first.
@@ -129,10 +132,13 @@ class Facing:
         """
         named = self.sensors.get(sensor)
         apart_s = max(t_s - named.t_s, 0.0) if named else 1.0 / LOOKS_PER_S
-        before = _named_anew(named, apart_s, line, towards_lens_rad)
+        row = named.row if named else len(self.sensors)
+        before = _named_anew(self.exchanged[row] if named else UNKNOWN, named, apart_s, line, towards_lens_rad)
         looks = line.weight * min(LOOKS_PER_S * apart_s, 1.0)
-        share, exchanged = looked(self.share, before, line.facing_rad, towards_lens_rad, ERRORS, looks)
-        return Facing(share, {**self.sensors, sensor: _Named(exchanged, t_s, line.facing_rad)}, self.t_s)
+        share, renamed_row = looked(self.share, before, line.facing_rad, towards_lens_rad, ERRORS, looks)
+        exchanged = self.exchanged.copy() if named else np.vstack([self.exchanged, UNKNOWN])
+        exchanged[row] = renamed_row
+        return Facing(share, exchanged, {**self.sensors, sensor: _Named(row, t_s, line.facing_rad)}, self.t_s)
 
     def walked(self, velocity_m_s: tuple[float, float], for_s: float) -> Facing:
         """The belief after the person went with this horizontal velocity (x, z) for so long."""
@@ -143,7 +149,7 @@ class Facing:
         off = np.cos(DIRECTION_RAD - atan2(*velocity_m_s))
         forward = sqrt(SURE_WALK / (2 * pi)) * np.exp(SURE_WALK * (off - 1.0))
         share = self.share * (FORWARD_SHARE * forward + (1.0 - FORWARD_SHARE) / (2 * pi)) ** looks
-        return Facing(share / share.sum(), self.sensors, self.t_s)
+        return Facing(share / share.sum(), self.exchanged, self.sensors, self.t_s)
 
 
 def shoulder_line(positions_in_room: Floats, state: States) -> ShoulderLine | None:
@@ -151,26 +157,28 @@ def shoulder_line(positions_in_room: Floats, state: States) -> ShoulderLine | No
 
     Facing = up × (right − left), in the horizontal; only the direction of the line counts.
     """
-    for left, right, usual in (("ShoulderLeft", "ShoulderRight", 1.0), ("HipLeft", "HipRight", 0.5)):
-        a, b = INDEX[left], INDEX[right]
+    for a, b, usual in LINES:
         if state[a] and state[b]:
-            middle = 0.5 * (positions_in_room[a] + positions_in_room[b])
-            x, _, z = (positions_in_room[b] - positions_in_room[a]).tolist()
+            left_x, _, left_z = positions_in_room[a].tolist()
+            right_x, _, right_z = positions_in_room[b].tolist()
+            x, z = right_x - left_x, right_z - left_z
             weight = min(max((hypot(x, z) / usual - NARROWEST_M) / (USUAL_M - NARROWEST_M), 0.0), 1.0)
-            return ShoulderLine(atan2(z, -x), weight, middle)
+            return ShoulderLine(atan2(z, -x), weight, (0.5 * (left_x + right_x), 0.5 * (left_z + right_z)))
     return None
 
 
-def _named_anew(named: _Named | None, apart_s: float, line: ShoulderLine, towards_lens_rad: float) -> Floats:
+def _named_anew(
+    exchanged: Floats, named: _Named | None, apart_s: float, line: ShoulderLine, towards_lens_rad: float
+) -> Floats:
     """P(exchanged) given ψ (N,) once a sensor had another frame in which to name the sides anew."""
     if named is None or apart_s > GAP_S:
         usual = renamed(UNKNOWN, towards_lens_rad, USUAL, (0.5, 0.0), 0.0)
-        return usual if named is None else 0.5 * (named.exchanged + usual)
+        return usual if named is None else 0.5 * (exchanged + usual)
     jump_rad = abs(_wrapped(line.facing_rad - named.facing_rad))
     by_jump = THOUGHT_ANEW * _step(jump_rad - JUMP_RAD - JUMP_RAD_S * apart_s)
     certain = THOUGHT_ANEW * _step(jump_rad - HALF_TURN_RAD)
     often = by_jump + apart_s * EXCHANGES_PER_S, apart_s * EXCHANGES_SIDE_ON_PER_S
-    return renamed(named.exchanged, towards_lens_rad, USUAL, often, certain)
+    return renamed(exchanged, towards_lens_rad, USUAL, often, certain)
 
 
 def _step(over_rad: float) -> float:

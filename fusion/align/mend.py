@@ -139,8 +139,8 @@ def _mended(sample: AlignedSample, decided: _Decided) -> tuple[AlignedSample, Me
 
 def _towards_lens(sample: AlignedSample, line: ShoulderLine) -> float:
     """Direction from the person to the lens, in the horizontal."""
-    x, _, z = (sample.lens_in_room - line.middle_in_room).tolist()
-    return atan2(x, z)
+    lens_x, _, lens_z = sample.lens_in_room.tolist()
+    return atan2(lens_x - line.middle_m[0], lens_z - line.middle_m[1])
 
 
 def _swapped(sample: AlignedSample) -> AlignedSample:

@@ -17,7 +17,7 @@ SMALL_RAD = 2 * np.pi / DIRECTIONS
 
 
 def line(facing_rad, weight=1.0):
-    return ShoulderLine(facing_rad, weight, np.zeros(3))
+    return ShoulderLine(facing_rad, weight, (0.0, 0.0))
 
 
 def after(looks, turn_rad=0.0):
@@ -35,8 +35,7 @@ def test_the_belief_stays_a_distribution(looks):
     belief = after(looks)
     assert np.isclose(belief.share.sum(), 1.0)
     assert (belief.share > 0).all()
-    for sensor in belief.sensors.values():
-        assert ((sensor.exchanged >= 0) & (sensor.exchanged <= 1)).all()
+    assert ((belief.exchanged >= 0) & (belief.exchanged <= 1)).all()
 
 
 @given(st.lists(LOOK, max_size=6), st.integers(0, DIRECTIONS - 1))
