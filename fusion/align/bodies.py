@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
-from math import dist, isnan
+from math import dist, hypot, isnan
 from typing import Final
 
 import numpy as np
@@ -92,7 +92,8 @@ class Sighting:
     t_s: float
     centre_in_sensor: Floats  # (3,)
     build: Signature
-    velocity_m_s: Floats  # (3,) smoothed
+    velocity_m_s: tuple[float, float, float]
+    """Smoothed."""
     verdict: Verdict = Verdict.WAITING
 
 
@@ -258,7 +259,7 @@ class BodiesInView:
 
     def _verdict(self, body: str, expected: WhereExpected) -> Verdict:
         """Why a body is or is not the patient, as far as can be told in a word."""
-        if np.linalg.norm(self.seen[body].velocity_m_s) > SWIFT_M_S:
+        if hypot(*self.seen[body].velocity_m_s) > SWIFT_M_S:
             return Verdict.SWIFT
         if body == self.followed:
             return Verdict.PATIENT
@@ -281,14 +282,15 @@ def _nearest(seen: list[Sighting], to: Floats) -> str:
     return min(seen, key=lambda one: dist(one.centre_in_sensor, to)).body
 
 
-def _velocity(before: Sighting | None, t_s: float, centre: Floats) -> Floats:
+def _velocity(before: Sighting | None, t_s: float, centre: Floats) -> tuple[float, float, float]:
     """Of a trunk, smoothed over a few frames; 0 after a silence."""
     dt = t_s - before.t_s if before else 0.0
     if before is None or not 0.0 < dt < ALIVE_S:
-        return np.zeros(3)
+        return 0.0, 0.0, 0.0
     share = min(dt / SPEED_OVER_S, 1.0)
-    velocity: Floats = (1.0 - share) * before.velocity_m_s + share * (centre - before.centre_in_sensor) / dt
-    return velocity
+    x, y, z = (centre - before.centre_in_sensor).tolist()
+    was_x, was_y, was_z = ((1.0 - share) * speed for speed in before.velocity_m_s)
+    return was_x + share * x / dt, was_y + share * y / dt, was_z + share * z / dt
 
 
 def _jumped(before: Sighting, t_s: float, centre: Floats) -> bool:

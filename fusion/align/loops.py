@@ -113,7 +113,7 @@ def distances(reference: Floats, sensor: Floats, rotation: Floats, translation: 
     there = turned(sensor, rotation, translation)
     found = np.empty(len(reference))
     for n in range(len(reference)):
-        found[n] = _apart(reference[n], there[n])
+        found[n] = apart(reference[n], there[n])
     return found
 
 
@@ -171,8 +171,8 @@ def clearly_crossed(
             other = other_side[j]
             both = min(weight[n, j], weight[n, other])
             if other != j and both > 0:
-                plain += both * _apart(reference[n, j], sensor[n, j])
-                crossed += both * _apart(reference[n, j], sensor[n, other])
+                plain += both * apart(reference[n, j], sensor[n, j])
+                crossed += both * apart(reference[n, j], sensor[n, other])
         found[n] = crossed < share * plain
     return found
 
@@ -227,5 +227,6 @@ def _dot(a: Floats, b: Floats) -> float:
 
 
 @kernel
-def _apart(a: Floats, b: Floats) -> float:
+def apart(a: Floats, b: Floats) -> float:
+    """Distance of two points (3,)."""
     return math.sqrt((a[0] - b[0]) ** 2 + (a[1] - b[1]) ** 2 + (a[2] - b[2]) ** 2)

@@ -12,6 +12,7 @@ from typing import Final
 
 import numpy as np
 
+from fusion.align.loops import apart
 from fusion.compiled import kernel
 from fusion.messages import Floats, States
 from fusion.skeleton import INDEX, TrackingState
@@ -71,8 +72,7 @@ def _renewed(log_m: Floats, frames: Floats, positions: Floats, state: States, me
     for k in range(len(STARTS)):
         a, b = STARTS[k], ENDS[k]
         if state[a] == TRACKED and state[b] == TRACKED:
-            x, y, z = positions[a] - positions[b]
-            total[BONE[k]] += log(max(sqrt(x * x + y * y + z * z), SHORTEST_M))
+            total[BONE[k]] += log(max(apart(positions[a], positions[b]), SHORTEST_M))
             count[BONE[k]] += 1.0
     new_log_m, new_frames = log_m.copy(), frames.copy()
     for bone in range(BONES):
