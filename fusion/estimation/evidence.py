@@ -25,14 +25,15 @@ DOUBTED_HALF_WIDTH_M: Final[Vector] = (0.6, 0.6, 0.6)
 class Evidence(NamedTuple):
     """One sensor's word about one joint, ready to be used."""
 
-    position: Vector  # m in room, as measured
+    position: Vector  # m in room, as measured and carried on to now with the velocity believed
+    measured: Vector  # m in room, as measured: a velocity that is only believed cuts no set
     apart_m: float  # from the point predicted
     believed: bool
     unchecked: bool  # believed where nobody was lately: the gate has nothing to judge by
     shared: bool  # believed, and so was another sensor lately
     outvoted: bool  # in doubt, disagreeing, and another sensor is sure: the point is not moved by it
     variance: float  # m², of its white noise
-    half_width: Vector  # m along the room's axes
+    half_width: Vector  # m along the room's axes, around `measured`
 
 
 @kernel
@@ -64,6 +65,7 @@ def weigh(
     half_width = half_width_in_room(plus(heard.position, lens, -1.0), rotation_sensor_to_room, box_m)
     return Evidence(
         position=position,
+        measured=heard.position,
         apart_m=apart_m,
         believed=believed,
         unchecked=believed and min(others_s, t_s - word.believed_s) > SURE_FOR_S,

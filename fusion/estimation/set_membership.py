@@ -157,7 +157,7 @@ def _use(joint: Record, words: Records, bias_m2: Floats, own: int, evidence: Evi
             biased_filter.learn_bias(joint, words, bias_m2, own, off, evidence.variance)
         return DOUBT
     tried = near or evidence.unchecked
-    met = tried and motion_set.take(joint, evidence.position, evidence.half_width)
+    met = tried and motion_set.take(joint, evidence.measured, evidence.half_width)
     begun = gated_filter.insists(joint, met, t_s) or not t_s - joint.seen_s < LOST_AFTER_S
     if not (met or begun):
         return SET if tried else GATE
@@ -168,7 +168,7 @@ def _use(joint: Record, words: Records, bias_m2: Floats, own: int, evidence: Evi
         # After a silence the point was held: how far it is off is no velocity.
         biased_filter.start(joint, words, bias_m2, own, unbiased, evidence.variance, t_s)
     if begun:
-        motion_set.begin(joint, evidence.position, evidence.half_width)
+        motion_set.begin(joint, evidence.measured, evidence.half_width)
     return TAKEN
 
 
