@@ -83,6 +83,11 @@ def locate(
         bar = progress.add_task(source.name, total=1.0)
         beside = _inertial(source, names)
         track = locate_tags(ranges, learnt, height, lambda share: progress.update(bar, completed=share), beside)
+    if not np.isfinite(track.bound_m).any():
+        fits = "anchors' positions and a height that the ranges fit"
+        raise InputError(
+            "nowhere do the ranges agree on a place", fits, "mend --height or the anchors in recording.json"
+        )
     _write(out, names, track)
     _say(source.name, names, track, truth, learnt, seconds)
     _say_pushed(names, beside)
