@@ -7,8 +7,8 @@ the way.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from time import perf_counter
 
 import numpy as np
@@ -18,12 +18,15 @@ from fusion.align.bodies import trunk_centre
 from fusion.align.whole import Aligned, align_streams
 from fusion.arrival import Due, as_if_equally_quick, as_received, when_taken
 from fusion.errors import InputError, RecordingError
+from fusion.joined.evidence import Evidence
 from fusion.messages import Floats, FusedFrame, JointAngles, MirrorTarget, SkeletonSample, States
 from fusion.pipeline import Pipeline, PipelineSettings
 from fusion.recording.recording import Recording, SkeletonStream
 from fusion.skeleton import JOINT_COUNT, Side
 
 GRID_HZ = 30.0
+JOINING = "set-membership"
+"""The method that other sensors than cameras are joined with; the papers' know cameras only."""
 START_S = 0.3
 Progress = Callable[[float], None]
 """Told the share done, 0 to 1."""
@@ -41,6 +44,16 @@ class SensorReport:
     refusals: dict[str, int]
     """Frames or joints not used, by reason."""
     warnings: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class OtherSensors:
+    """What became of inertial sensors and of a tag."""
+
+    used: tuple[str, ...] = ()
+    """Sites and tags."""
+    unusable: Mapping[str, str] = field(default_factory=dict)
+    """By site or tag, with the reason."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,6 +91,7 @@ class FusedRecording:
     target: tuple[MirrorTarget | None, ...]  # T
     sensors: tuple[SensorReport, ...]
     timings: Timings
+    others: OtherSensors = OtherSensors()
 
 
 def fuse_recording(
@@ -111,7 +125,8 @@ def fuse_recording(
     known = None if live else whole
     aligned = perf_counter()
     side = recording.healthy_side or Side.RIGHT
-    pipeline = Pipeline(PipelineSettings(side, method, chosen, known.alignments if known else None))
+    evidence, others = _others(recording) if method == JOINING and only_sensor is None else (None, OtherSensors())
+    pipeline = Pipeline(PipelineSettings(side, method, chosen, known.alignments if known else None, evidence))
     used = _usable(recording, [stream for name, stream in streams.items() if only_sensor in (None, name)], known)
     first = next((stream for stream in used if stream.sensor == chosen), used[0])
     pipeline.follow(first.sensor, _nearest_at_start(first))
@@ -133,7 +148,19 @@ def fuse_recording(
         tuple(target for _, _, target in told),
         _reports(pipeline, streams, known, chosen, float(grid[-1])),
         timings,
+        others,
     )
+
+
+def _others(recording: Recording) -> tuple[Evidence | None, OtherSensors]:
+    """Inertial sensors and a tag, where the recording has any."""
+    if not (recording.imu_streams or recording.range_streams):
+        return None, OtherSensors()
+    from fusion.joined.feed import samples_of  # loads orientation filters, which most recordings do without
+
+    found = samples_of(recording)
+    evidence = found.evidence() if found.used else None
+    return evidence, OtherSensors(tuple(name for name, _ in found.used), found.unusable)
 
 
 def _usable(recording: Recording, streams: list[SkeletonStream], known: Aligned | None) -> list[SkeletonStream]:

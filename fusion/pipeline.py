@@ -15,6 +15,9 @@ from fusion.align.mend import Mending, SideKeeper
 from fusion.align.watch import SensorWatch
 from fusion.errors import InputError
 from fusion.estimation import METHODS
+from fusion.estimation.estimator import Estimator
+from fusion.joined.estimator import Joined
+from fusion.joined.evidence import Evidence
 from fusion.kinematics.follower import ArmFollower
 from fusion.messages import (
     AlignedSample,
@@ -42,6 +45,13 @@ class PipelineSettings:
     """The sensor whose frame is the room's; None takes the first that shows a body for half a second."""
     alignments: Mapping[str, SensorAlignment] | None = None
     """Known alignment of every sensor but the reference, own clocks counting; None learns them on the way."""
+    evidence: Evidence | None = None
+    """What inertial sensors and a tag say, on the reference's clock; None where there are none."""
+
+    def estimator(self) -> Estimator:
+        """The method's estimator, joined with the other evidence where there is any."""
+        method = METHODS[self.method]
+        return method() if self.evidence is None else Joined(method, self.evidence)
 
 
 class Pipeline:
@@ -61,7 +71,7 @@ class Pipeline:
         self._sensors: dict[str, SensorWatch] = {}
         self._patient = PatientFinder()
         self._sides = SideKeeper()
-        self._body = RewindingEstimator(METHODS[settings.method])
+        self._body = RewindingEstimator(settings.estimator)
         self._arm = ArmFollower(settings.healthy_side)
         self._recent: FusedFrame | None = None
         self._latest: dict[str, AlignedSample] = {}
@@ -235,10 +245,15 @@ class Pipeline:
         return watch.seen_for_s(self._patient.followed(watch.sensor))
 
     def _fresh(self, t_s: float) -> FusedFrame | None:
-        """The body, unless nobody has seen it for too long."""
+        """The body, unless nobody has seen or felt it for too long."""
         fused = self.fused_at(t_s)
         newest_s = self._body.newest_s
-        if fused is None or newest_s is None or fused.t_s - newest_s > STALE_AFTER_S:
+        if fused is None or newest_s is None or (fused.t_s - newest_s > STALE_AFTER_S and not self._goes_on(fused.t_s)):
             return None
         self._recent = fused
         return fused
+
+    def _goes_on(self, t_s: float) -> bool:
+        """Whether other sensors than cameras follow the body."""
+        evidence = self._settings.evidence
+        return evidence is not None and evidence.speaks(t_s)

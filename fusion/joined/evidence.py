@@ -79,6 +79,10 @@ class Evidence:
             return ()
         return tuple(self._tag.within(t_s - LATELY_S, t_s))
 
+    def speaks(self, t_s: float) -> bool:
+        """Whether any inertial sensor says something of `t_s`."""
+        return any(series.at(t_s) is not None for series in self._segments.values())
+
     def forget(self, before_s: float) -> None:
         """Drop what is older: a session lasts for hours, and nobody asks again."""
         self._tag.forget(before_s)

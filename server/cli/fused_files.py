@@ -148,6 +148,7 @@ def _report(fused: FusedRecording) -> dict[str, object]:
         "healthy_side": fused.healthy_side.value,
         "instants": len(fused.t_s),
         "sensors": {sensor.sensor: _sensor(sensor) for sensor in fused.sensors},
+        "other_sensors": {"used": list(fused.others.used), "unusable": dict(fused.others.unusable)},
         "timings": {
             "recording_s": timings.recording_s,
             "align_s": timings.align_s,
