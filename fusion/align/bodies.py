@@ -90,6 +90,8 @@ class Sighting:
 
     body: str
     t_s: float
+    since_s: float
+    """Since when its wearer has moved as one person."""
     centre_in_sensor: Floats  # (3,)
     build: Signature
     velocity_m_s: tuple[float, float, float]
@@ -207,15 +209,21 @@ class BodiesInView:
         if before is not None and _jumped(before, t_s, centre):
             self.others.discard(sample.body)
             if self.followed == sample.body:
-                self._follow(None, np.inf)
+                self._let_go_of_a_changed_number(t_s)
             before = None
         build = (before.build if before else Signature.unknown()).after(
             sample.positions_in_sensor, sample.state, RECENT_FRAMES
         )
         verdict = before.verdict if before else Verdict.WAITING
         velocity_m_s = _velocity(before, t_s, centre)
-        sighting = self.seen[sample.body] = Sighting(sample.body, t_s, centre, build, velocity_m_s, verdict)
+        since_s = before.since_s if before else t_s
+        sighting = self.seen[sample.body] = Sighting(sample.body, t_s, since_s, centre, build, velocity_m_s, verdict)
         return sighting
+
+    def _let_go_of_a_changed_number(self, t_s: float) -> None:
+        """The followed number has another wearer; a number that changed its own just now may be the patient's."""
+        self._follow(None, np.inf)
+        self.others = {body for body in self.others if self.seen[body].since_s < t_s - BESIDE_S}
 
     def _watch_bones(self, sighting: Sighting) -> None:
         """Let the followed body go once its bones have long been another person's."""
