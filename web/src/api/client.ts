@@ -70,6 +70,8 @@ export const readCurves = (id: number) => taken(http.GET("/api/sessions/{session
 export const readEvents = (id: number) => taken(http.GET("/api/sessions/{session_id}/events", session(id)));
 export const control = (id: number, action: Action) =>
   taken(http.POST("/api/sessions/{session_id}/control", { ...session(id), body: { action } }));
+export const followBody = (id: number, sensor: string, body: string) =>
+  taken(http.POST("/api/sessions/{session_id}/follow", { ...session(id), body: { sensor, body } }));
 export const endSession = (id: number, painAfter: number | null) =>
   taken(http.POST("/api/sessions/{session_id}/end", { ...session(id), body: { pain_after: painAfter } }));
 

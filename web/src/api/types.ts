@@ -17,6 +17,7 @@ export type Metric = Schemas["MetricPublic"];
 export type PassiveRange = Schemas["PassiveRange"];
 export type Patient = Schemas["PatientPublic"];
 export type PatientForm = Schemas["PatientCreate"];
+export type PersonView = Schemas["PersonView"];
 export type SensorView = Schemas["SensorView"];
 export type Session = Schemas["SessionPublic"];
 export type SessionDetail = Schemas["SessionDetail"];

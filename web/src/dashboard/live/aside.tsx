@@ -3,16 +3,18 @@ import type { Session } from "../../api/types";
 import { t } from "../../strings";
 import { duration } from "../format";
 import { type Feed, useFromFeed } from "./feed";
+import type { Question } from "./who";
 
 const PLAY_PAGE = "/play.html";
 
 interface Props {
   feed: Feed;
   session: Session;
+  who: Question;
   onEnd: () => void;
 }
 
-export function Aside({ feed, session, onEnd }: Props) {
+export function Aside({ feed, session, who, onEnd }: Props) {
   const elapsed = useFromFeed(feed, 2, ({ newest }) => newest?.session?.elapsed_s ?? 0);
   return (
     <section class="card live-side">
@@ -24,6 +26,9 @@ export function Aside({ feed, session, onEnd }: Props) {
         <div class="small">{t(`patient.affected.${session.affected_side}`)}</div>
       </div>
       <Score feed={feed} />
+      <button type="button" onClick={who.ask} aria-expanded={who.isShown} data-testid="ask-who">
+        {who.isConfirmed ? `✓ ${t("who.confirmed")}` : t("who.title")}
+      </button>
       <a class="button" href={PLAY_PAGE} target="mirrorlimb-play" data-testid="open-play">
         {t("live.play")}
       </a>

@@ -19,6 +19,7 @@ import { Sensors } from "./sensors";
 import { StateBanner } from "./state-banner";
 import { useStopKey } from "./stop-key";
 import { useView3d, View3d, View3dSwitch } from "./view3d";
+import { useWho, Who } from "./who";
 
 export function LivePage() {
   const current = useAsked(currentSession, "current");
@@ -48,6 +49,7 @@ function Live({ session }: { session: Session }) {
   const wishes = useDoing();
   const [ending, setEnding] = useState(false);
   const view3d = useView3d();
+  const who = useWho(feed);
   const [pressed, setPressed] = useState<Action | null>(null);
   const wish = (action: Action) => {
     setPressed(action);
@@ -66,12 +68,13 @@ function Live({ session }: { session: Session }) {
           <LiveCurve feed={feed} first="elbow" />
         </div>
         <View3dSwitch {...view3d} />
+        {who.isShown && <Who feed={feed} session={session.id} onClose={who.close} />}
         {ending && <EndQuestion session={session.id} onCancel={() => setEnding(false)} />}
       </div>
       <div class="live-foot">
         <Sensors feed={feed} />
         <Exo feed={feed} />
-        <Aside feed={feed} session={session} onEnd={() => setEnding(true)} />
+        <Aside feed={feed} session={session} who={who} onEnd={() => setEnding(true)} />
       </div>
       {wishes.problem && (
         <div class="toast">
