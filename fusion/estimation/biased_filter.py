@@ -23,7 +23,7 @@ from fusion.estimation.gated_filter import FRAME_S
 from fusion.estimation.vectors import Vector, length
 from fusion.messages import Floats
 
-CALM_STD: Final = 2.0
+CALM_STD: Final = 3.0
 """m/s² per 30 Hz frame, of a joint at rest; 2 to 4 serve, 1 lags."""
 HURRY_STD: Final = 20.0
 """m/s² more per m/s: a limb that moves changes its speed within a twentieth of a second; 15 to 40 serve."""

@@ -33,8 +33,8 @@ KNOWN_FRAMES: Final = 30
 """Samples after which a length counts: half a second of two sensors."""
 FORGET_FRAMES: Final = 3600
 """Afterwards a length follows over a minute of two sensors; 10 s let it breathe."""
-GIVE_M: Final = 0.02
-"""How far a bone's length may be another for all that (the shoulder's joint slides); 0.01 to 0.04 m serve."""
+GIVE_M: Final = 0.03
+"""How far a bone's length may be another for all that (the shoulder's joint slides); 0.01 to 0.04 m serve, more lets bones breathe."""
 ROUNDS: Final = 3
 """One bone's end is another's beginning."""
 
