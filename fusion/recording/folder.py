@@ -155,8 +155,6 @@ def _samples(table: Table, sensor: str) -> tuple[SkeletonSample, ...]:
     positions = np.full((len(frame_t_s), JOINT_COUNT, 3), np.nan)
     states: States = np.zeros((len(frame_t_s), JOINT_COUNT), dtype=np.uint8)
     positions[frame, joint], states[frame, joint] = points, state
-    positions.setflags(write=False)
-    states.setflags(write=False)
     return tuple(
         SkeletonSample(sensor, names[b], t, t, positions[i], states[i])
         for i, (t, b) in enumerate(zip(frame_t_s.tolist(), frame_body.tolist(), strict=True))

@@ -193,7 +193,10 @@ def about_from_metadata(metadata: dict[str, str]) -> LogAbout:
 
 
 def as_sample(entry: SampleEntry) -> SkeletonSample:
-    """The sample that an entry keeps; raises ValueError if its arrays are of another size."""
-    positions: Floats = np.frombuffer(entry.positions_in_sensor, dtype="<f8").reshape(JOINT_COUNT, 3)
-    state: States = np.frombuffer(entry.state, dtype=np.uint8).reshape(JOINT_COUNT)
+    """The sample that an entry keeps; raises ValueError if its arrays are of another size.
+
+    Copies, as read-only arrays are of another kind: compiled loops would be compiled anew for them.
+    """
+    positions: Floats = np.frombuffer(entry.positions_in_sensor, dtype="<f8").reshape(JOINT_COUNT, 3).astype(np.float64)
+    state: States = np.frombuffer(entry.state, dtype=np.uint8).reshape(JOINT_COUNT).copy()
     return SkeletonSample(entry.sensor, entry.body, entry.t_s, entry.t_received_s, positions, state)

@@ -4,6 +4,7 @@ import os
 import signal
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -70,6 +71,26 @@ def test_a_recording_written_in_either_form_is_read_back(tmp_path: Path, name: s
     write_recording(recording, tmp_path / name)
     came = read_recording(tmp_path / name)
     assert_same(came, recording, receive_times)
+
+
+@pytest.mark.parametrize("name", ["log.mcap", "folder"])
+def test_samples_read_are_of_the_kind_of_array_that_is_compiled_for(tmp_path: Path, name: str) -> None:
+    """Read-only arrays would be another kind, compiled anew on the way."""
+    write_recording(a_recording(tmp_path), tmp_path / name)
+    for stream in read_recording(tmp_path / name).skeleton_streams:
+        for one in stream.samples:
+            for array, kind in ((one.positions_in_sensor, np.float64), (one.state, np.uint8)):
+                assert array.dtype == kind
+                assert array.flags.writeable
+                assert array.flags.c_contiguous
+
+
+@pytest.mark.parametrize("known", [False, True])
+def test_a_log_says_whether_it_knows_when_samples_were_received(tmp_path: Path, known: bool) -> None:
+    write_recording(replace(a_recording(tmp_path), arrivals_known=known), tmp_path / "log.mcap")
+    assert read_recording(tmp_path / "log.mcap").arrivals_known is known
+    write_recording(read_recording(tmp_path / "log.mcap"), tmp_path / "folder")
+    assert not read_recording(tmp_path / "folder").arrivals_known
 
 
 def test_what_exists_is_not_overwritten(tmp_path: Path) -> None:
