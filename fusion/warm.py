@@ -1,17 +1,28 @@
-"""Every kernel of a session compiled, or loaded, before one begins: by `make setup` and at the station's start."""
+"""Every kernel of a session compiled, or loaded, before one begins: by `make setup` and at the station's start.
+
+`make setup` compiles what commands on recordings need, too.
+"""
 
 from __future__ import annotations
 
 import sys
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from time import perf_counter
 from typing import Final
 
+import numpy as np
+
 from fusion.estimation import METHODS
 from fusion.messages import PipelineFrame
+from fusion.offline import fuse_recording
 from fusion.pipeline import Pipeline, PipelineSettings
-from fusion.skeleton import Side
+from fusion.recording.lines import lines_of
+from fusion.recording.reader import read_recording
+from fusion.recording.writer import write_recording
+from fusion.skeleton import JOINTS, Side
 from fusion.virtual_patient.patient import VirtualPatient
-from fusion.virtual_patient.trial import sensors_for
+from fusion.virtual_patient.trial import sensors_for, virtual_recording
 
 SECONDS: Final = 4.0
 """Of the virtual patient's time: long enough for a sensor to be aligned and an arm to be mirrored."""
@@ -36,12 +47,22 @@ def warm(method: str) -> PipelineFrame:
     return told
 
 
+def warm_files() -> None:
+    """Write a recording, read it, fuse it, and write some of that as text."""
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "recording"
+        write_recording(virtual_recording(1, SECONDS), path)
+        fused = fuse_recording(read_recording(path), next(iter(METHODS)))
+    lines_of(fused.positions[:, 0], (4, 4, 4), JOINTS, np.zeros(len(fused.t_s), dtype=np.int64))
+
+
 def main() -> None:
     """Compile for every method, and say so."""
     started_s = perf_counter()
     print("Compiling the inner loops (half a minute once; they are kept) ...", file=sys.stderr, flush=True)
     for method in METHODS:
         warm(method)
+    warm_files()
     print(f"Compiled or loaded in {perf_counter() - started_s:.1f} s.", file=sys.stderr)
 
 
