@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 STUDIES: Final = "dual-kinect-study??-90deg"
+ALL_CALLED: Final = "dual-kinect-"
 MOMENTS: Final = 30
 DEFAULT: Final = next(iter(METHODS))
 GOAL_MM: Final = 20.0
@@ -31,6 +32,7 @@ class Study:
     """One recording, one method."""
 
     recording: str
+    """Without what all of them are called."""
     method: str
     coverings: tuple[Covering, ...]
     steadiness: tuple[Steadiness, ...]
@@ -66,7 +68,7 @@ def run(setup: Setup) -> Outcome:
 
 def _study(scene: Scene, method: str, setup: Setup) -> Study:
     covered = covering(scene, method, setup.many(MOMENTS), setup.seed)
-    return Study(scene.name, method, covered, steadiness(scene, method))
+    return Study(scene.name.removeprefix(ALL_CALLED), method, covered, steadiness(scene, method))
 
 
 def _beside(studies: Sequence[Study]) -> tuple[Beside, ...]:
@@ -134,7 +136,7 @@ def _draw_moved(figure: Figure, studies: Sequence[Study]) -> None:
         axes.set_xscale("log")
         axes.set_xlim(0.5, 1000)
         axes.set_xlabel("move [mm]")
-        axes.set_title(study.recording.removeprefix("dual-kinect-"))
+        axes.set_title(study.recording)
     panels[0].set_ylabel("share of joint-frames [%]")
     figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
 
@@ -155,7 +157,7 @@ def _draw_steady(figure: Figure, studies: Sequence[Study]) -> None:
             axes.bar(at, values, 0.24, color=colour, label="fused" if k == 0 else f"sensor {k} alone")
         halves = [1e3 * getattr(study.better, field) / 2 for study in studies]
         axes.hlines(halves, np.arange(len(studies)) - 0.4, np.arange(len(studies)) + 0.4, color="black", label="goal")
-        names = [study.recording.removeprefix("dual-kinect-").removesuffix("-90deg") for study in studies]
+        names = [study.recording.removesuffix("-90deg") for study in studies]
         axes.set_xticks(range(len(studies)), names)
         axes.set_title(title)
         axes.grid(visible=False, axis="x")

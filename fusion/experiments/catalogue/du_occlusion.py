@@ -162,7 +162,7 @@ def _draw(figure: Figure, found: Traces) -> None:
         if axis == 0:
             handles = axes.get_legend_handles_labels()
     axes.set_xlabel("time [s]")
-    figure.legend(*handles, loc="outside upper center", ncols=6)
+    figure.legend(*handles, loc="outside upper center", ncols=3)
 
 
 _SIMULATED = (

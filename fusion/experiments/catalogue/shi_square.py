@@ -85,7 +85,7 @@ EXPERIMENT = Experiment(
     "Somebody walks once around the square: radio alone strays from the path, the join keeps very near to it (Fig. 6); "
     "no figure is given.",
     "Ten simulated walks at 0.6 m/s; the bearer's own body, behind the tag, blocks anchors. Radio alone by least "
-    "squares, and the paper's join as methods.md restates it.",
+    "squares, and the paper's join as docs/ranging.md restates it.",
     run,
     order=2,
 )

@@ -114,7 +114,7 @@ EXPERIMENT = Experiment(
     "A tag at (135, 135) cm, ten laps of somebody around it: without fusion x wanders over 100–150 and y over "
     "110–150 cm, with it x over 125–135 and y over 125–140 cm.",
     "Ten simulated laps of 20 s; the walker blocks each of three anchors in turn and lengthens its range. Least "
-    "squares on the ranges alone, and the paper's join with the acceleration as methods.md restates it.",
+    "squares on the ranges alone, and the paper's join with the acceleration as docs/ranging.md restates it.",
     run,
     order=1,
 )

@@ -135,7 +135,7 @@ def _compared(what: str, counts: Counts) -> Beside:
 
 
 def _far(found: SideOn) -> str:
-    return f"{found.alone_mm:.0f} mm, no word in {found.alone_missing:.0%} / {found.fused_mm:.0f} mm"
+    return f"{found.alone_mm:.0f} mm, untracked in {100 * found.alone_missing:.0f} % / {found.fused_mm:.0f} mm"
 
 
 def _table(counts: Counts) -> Table:

@@ -47,7 +47,7 @@ def _section(made: Made) -> list[str]:
     parts += [f"*{experiment.paper}*", *(f"Left out: {reason}" for reason in outcome.left_out)]
     parts += [part for table in outcome.tables for part in _table(table)]
     if outcome.why:
-        parts.append(f"**Why they differ.** {outcome.why}")
+        parts.append(outcome.why)
     return parts + _seeds(outcome)
 
 

@@ -14,6 +14,9 @@ from fusion.experiments.output.made import Made, Origin
 
 VERDICTS = {True: '<span class="met">met</span>', False: '<span class="missed">missed</span>', None: ""}
 
+HEADINGS = {False: ("What the paper has.", "Why they differ."), True: ("The goal.", "What to make of it.")}
+"""What stands before a paper's figures and the reasons; for experiments of our own there is a goal instead."""
+
 
 def page(made: Sequence[Made], origin: Origin) -> str:
     """The whole page as HTML."""
@@ -41,12 +44,17 @@ def _head(made: Sequence[Made], origin: Origin) -> str:
 
 def _glance(made: Sequence[Made]) -> str:
     rows = [
-        [f'<a href="#{each.experiment.name}">{escape(each.experiment.name)}</a>', *_beside(row)]
+        [_link(each) if number == 0 else "", *_beside(row)]
         for each in made
-        for row in each.outcome.beside
+        for number, row in enumerate(each.outcome.beside)
     ]
     grid = _grid(("experiment", "what", "paper, or goal", "ours", ""), rows, frozenset())
     return f'<section><h2>At a glance</h2><div class="glance">{grid}</div></section>'
+
+
+def _link(made: Made) -> str:
+    name = escape(made.experiment.name)
+    return f'<a href="#{name}">{name}</a>'
 
 
 def _beside(row: Beside) -> list[str]:
@@ -61,17 +69,16 @@ def _chapters(made: Sequence[Made]) -> Iterable[str]:
 
 def _section(made: Made) -> str:
     experiment, outcome = made.experiment, made.outcome
+    asked, answered = HEADINGS[experiment.chapter is Chapter.OURS]
     parts = [
         f'<section id="{experiment.name}"><h3>{escape(experiment.title)}</h3>',
         f'<p class="command"><code>mirrorlimb experiments {experiment.name}</code> · {made.took_s:.0f} s</p>',
         f"<p><b>What was done.</b> {escape(experiment.done)}</p>",
-        f"<p><b>What the paper has.</b> {escape(experiment.paper)}</p>"
-        if experiment.chapter is not Chapter.OURS
-        else f"<p><b>The goal.</b> {escape(experiment.paper)}</p>",
+        f"<p><b>{asked}</b> {escape(experiment.paper)}</p>",
         *(f'<p class="left-out">Left out: {escape(reason)}</p>' for reason in outcome.left_out),
         *(_figure(picture, made.pictures[picture.name]["svg"]) for picture in outcome.pictures),
         *(_table(table) for table in outcome.tables),
-        f"<p><b>Why they differ.</b> {escape(outcome.why)}</p>" if outcome.why else "",
+        f"<p><b>{answered}</b> {escape(outcome.why)}</p>" if outcome.why else "",
         _seeds(outcome),
     ]
     return "\n".join([*parts, "</section>"])
