@@ -223,7 +223,7 @@ export const en = {
   "who.followed": "Followed as the patient",
   "who.confirmed": "Patient confirmed",
   "who.choose": "{person} is the patient",
-  "who.body": "{sensor}: body {body}",
+  "who.seen": "Seen by {sensors}",
   "who.close": "Close",
   "exo.joint": "Joint",
   "exo.measured": "Measured",

@@ -218,7 +218,7 @@ export const zh: Record<Key, string> = {
   "who.followed": "正作为患者跟踪",
   "who.confirmed": "已确认患者",
   "who.choose": "{person} 是患者",
-  "who.body": "{sensor}：人体 {body}",
+  "who.seen": "可见于 {sensors}",
   "who.close": "关闭",
   "exo.joint": "关节",
   "exo.measured": "实测",

@@ -40,6 +40,9 @@ export function Who({ feed, session, onClose }: { feed: Feed; session: number; o
   return (
     <section class="card who" aria-label={t("who.title")} data-testid="who">
       <h2>{t("who.title")}</h2>
+      <button type="button" onClick={onClose} data-testid="who-close">
+        {t("who.close")}
+      </button>
       {people.length === 0 ? <p>{t("who.nobody")}</p> : <FloorPlan people={people} sensors={sensors} />}
       <ul>
         {people.map((person) => (
@@ -47,22 +50,19 @@ export function Who({ feed, session, onClose }: { feed: Feed; session: number; o
         ))}
       </ul>
       <ProblemBox problem={doing.problem} onClose={doing.forget} />
-      <button type="button" onClick={onClose} data-testid="who-close">
-        {t("who.close")}
-      </button>
     </section>
   );
 }
 
 function Choice({ person, busy, onChoose }: { person: Person; busy: boolean; onChoose: () => void }) {
   return (
-    <li class={person.isPatient ? "who-patient" : ""} data-testid="person" data-patient={person.isPatient}>
+    <li class={person.isPatient ? "who-patient" : ""} data-testid="person" data-bodies={numbersOf(person)}>
       <span class="who-letter" aria-hidden="true">
         {person.label}
       </span>
       <div>
-        <strong>{wordOf(person)}</strong>
-        <div class="small soft">{bodiesOf(person)}</div>
+        <strong class="small">{wordOf(person)}</strong>
+        <div class="small soft">{sensorsOf(person)}</div>
       </div>
       {person.isConfirmed ? (
         <span class="who-sure">✓ {t("who.confirmed")}</span>
@@ -81,13 +81,12 @@ function wordOf(person: Person): string {
   return person.isPatient ? t("who.followed") : sentence(body?.reason ?? "");
 }
 
-function bodiesOf(person: Person): string {
-  return person.bodies.map(({ sensor, body }) => t("who.body", { sensor, body: shortened(body) })).join(" · ");
+function numbersOf(person: Person): string {
+  return person.bodies.map(({ body }) => body).join(" ");
 }
 
-/** A Kinect numbers bodies with twenty digits; the last ones tell them apart. */
-function shortened(body: string): string {
-  return body.length > 6 ? `…${body.slice(-4)}` : body;
+function sensorsOf(person: Person): string {
+  return t("who.seen", { sensors: person.bodies.map(({ sensor }) => sensor).join(", ") });
 }
 
 const NO_SENSORS: SensorView[] = [];
