@@ -11,7 +11,7 @@ from typing import ClassVar, Final
 import numpy as np
 
 from fusion.estimation.average import Average, Samples
-from fusion.estimation.measurement import read, sight
+from fusion.estimation.measurement import FARTHEST_M, read, sight
 from fusion.messages import AlignedSample, Floats
 from fusion.skeleton import INDEX, JOINT_COUNT, TrackingState
 
@@ -58,10 +58,11 @@ def _facing_seen(sample: AlignedSample) -> Floats:
 
 
 def _lens_weight(facing: Floats, sample: AlignedSample) -> float:
-    """The weight w = |1 − θ / 90°| of facing and lens, at least 0.05; 1 where the facing is not known."""
-    if not facing.any():
+    """The weight w = |1 − θ / 90°| of facing and lens, at least 0.05; 1 where either is not known."""
+    ahead = sample.rotation_sensor_to_room[:, 2]
+    if not facing.any() or not np.abs(ahead).max() < FARTHEST_M:
         return 1.0
-    lens = _unit(sample.rotation_sensor_to_room[:, 2] * (1.0 - UP))
+    lens = _unit(ahead * (1.0 - UP))
     angle_rad = float(np.arccos(np.clip(facing @ lens, -1.0, 1.0)))
     return max(abs(1.0 - angle_rad / (np.pi / 2)), LEAST_WEIGHT)
 

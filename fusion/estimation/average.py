@@ -8,7 +8,7 @@ from typing import ClassVar, Final
 import numpy as np
 
 from fusion.estimation.estimator import Estimator
-from fusion.estimation.freshness import CONTINUE_S, TOO_OLD_S, states_of
+from fusion.estimation.freshness import CONTINUE_S, counts, states_of
 from fusion.estimation.measurement import read, sight
 from fusion.messages import AlignedSample, Floats, FusedFrame, Refusal
 from fusion.skeleton import JOINT_COUNT
@@ -42,7 +42,7 @@ class Average(Estimator):
     def update(self, sample: AlignedSample) -> tuple[Refusal, ...]:
         """Put the sample in the place of the sensor's former one; nothing is ever refused."""
         newest_s = max((s.t_s for s in self._state.samples), default=-np.inf)
-        if sample.t_s >= newest_s - TOO_OLD_S:
+        if counts(sample.t_s, newest_s):
             samples = _fresh(self._state.samples, sample, max(newest_s, sample.t_s))
             self._state = _joined(self._state, samples, self._weights(samples))
         return ()

@@ -17,7 +17,7 @@ from fusion.estimation import refusals
 from fusion.estimation.error_box import half_width_in_room
 from fusion.estimation.estimator import Estimator
 from fusion.estimation.evidence import BELIEVED_HALF_WIDTH_M, DOUBTED_HALF_WIDTH_M
-from fusion.estimation.freshness import LOST_AFTER_S, TOO_OLD_S, seconds_in_motion, state_of
+from fusion.estimation.freshness import LOST_AFTER_S, counts, seconds_in_motion, state_of
 from fusion.estimation.gated_filter import insists
 from fusion.estimation.matrices import inverse, largest_eigenvalue
 from fusion.estimation.measurement import Measurement, Sight, read, sight
@@ -60,7 +60,7 @@ class Esmf(Estimator):
 
     def update(self, sample: AlignedSample) -> tuple[Refusal, ...]:
         """Predict to the sample, drop what does not meet its set, cut with the rest."""
-        if sample.t_s < self._state.t_s - TOO_OLD_S:
+        if not counts(sample.t_s, self._state.t_s):
             return ()
         self._state, refused = _updated(self._state, sample)
         return refused

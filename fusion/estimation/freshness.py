@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import isfinite
 from typing import Final
 
 import numpy as np
@@ -19,6 +20,11 @@ LOST_AFTER_S: Final = 1.0
 TOO_OLD_S: Final = 0.4
 """A sample older than the state by more than this is ignored."""
 TRACKED, INFERRED, LOST = TrackingState.TRACKED, TrackingState.INFERRED, TrackingState.LOST
+
+
+def counts(t_s: float, newest_s: float) -> bool:
+    """Whether a sample of `t_s` still counts after one of `newest_s`; an instant that is not a number does not."""
+    return isfinite(t_s) and t_s >= newest_s - TOO_OLD_S
 
 
 @kernel

@@ -11,7 +11,7 @@ import numpy as np
 from fusion.compiled import Records, kernel, record
 from fusion.estimation import gated_filter, refusals
 from fusion.estimation.estimator import Estimator
-from fusion.estimation.freshness import CONTINUE_S, TOO_OLD_S, state_of
+from fusion.estimation.freshness import CONTINUE_S, counts, state_of
 from fusion.estimation.gated_filter import ACCELERATION_DENSITY, GATE_SIGMA
 from fusion.estimation.measurement import Sight, read, sight
 from fusion.estimation.vectors import put, row
@@ -50,7 +50,7 @@ class Kalman(Estimator):
 
     def update(self, sample: AlignedSample) -> tuple[Refusal, ...]:
         """Predict to the sample, refuse what is beyond the gate, take the rest."""
-        if sample.t_s < self._state.t_s - TOO_OLD_S:
+        if not counts(sample.t_s, self._state.t_s):
             return ()
         self._state, refused = _updated(self._state, sample)
         return refused

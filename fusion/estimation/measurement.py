@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from math import isfinite
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +13,8 @@ from fusion.messages import AlignedSample, Floats, States
 from fusion.skeleton import TrackingState
 
 Flags = NDArray[np.bool_]
+FARTHEST_M: Final = 1e3
+"""No sensor sees so far, and no sum over what is nearer overflows."""
 TRACKED, LOST = TrackingState.TRACKED, TrackingState.LOST
 
 
@@ -49,10 +50,12 @@ def sight(sample: AlignedSample, joints: int) -> Sight:
     """Copies, so that no kernel is compiled anew for an array that is read-only or lies otherwise in memory.
 
     Raises:
-        ValueError: the sample is not one of `joints` joints; a kernel would read beyond its end.
+        ValueError: an array is not of the shape that `joints` joints have; a kernel would read beyond its end.
     """
-    if sample.positions_in_room.shape != (joints, 3) or sample.state.shape != (joints,):
-        raise ValueError(f"a sample of {sample.positions_in_room.shape} and {sample.state.shape} for {joints} joints")
+    _expect(joints, "positions array", sample.positions_in_room, (joints, 3))
+    _expect(joints, "state", sample.state, (joints,))
+    _expect(joints, "lens", sample.lens_in_room, (3,))
+    _expect(joints, "rotation", sample.rotation_sensor_to_room, (3, 3))
     return Sight(
         np.array(sample.positions_in_room, np.float64, order="C"),
         np.array(sample.state, np.uint8),
@@ -61,14 +64,27 @@ def sight(sample: AlignedSample, joints: int) -> Sight:
     )
 
 
+def _expect(joints: int, name: str, array: Floats | States, shape: tuple[int, ...]) -> None:
+    if array.shape != shape:
+        raise ValueError(f"a sample of {joints} joints has a {name} of the shape {shape}, not {array.shape}")
+
+
 @kernel
 def read(seen: Sight) -> Measurement:
-    """Leave out what is not tracked at all and what is not a number."""
+    """Leave out what is not tracked at all, is not a number, or is farther than anything; without a mounting, all."""
     positions = np.zeros_like(seen.positions_in_room)
     given = np.zeros(len(positions), np.bool_)
+    mounted = _is_near(seen.lens_in_room)
+    for k in range(3):
+        mounted = mounted and _is_near(seen.rotation_sensor_to_room[k])
     for j in range(len(positions)):
-        place = row(seen.positions_in_room, j)
-        given[j] = seen.state[j] != LOST and isfinite(place[0]) and isfinite(place[1]) and isfinite(place[2])
+        given[j] = mounted and seen.state[j] != LOST and _is_near(seen.positions_in_room[j])
         if given[j]:
-            put(positions, j, place)
+            put(positions, j, row(seen.positions_in_room, j))
     return Measurement(positions, given, given & (seen.state == TRACKED))
+
+
+@kernel
+def _is_near(a: Floats) -> bool:
+    """Whether three numbers are numbers, and none too large."""
+    return bool(abs(a[0]) < FARTHEST_M and abs(a[1]) < FARTHEST_M and abs(a[2]) < FARTHEST_M)

@@ -21,7 +21,7 @@ from fusion.compiled import Record, Records, kernel
 from fusion.estimation import ball, biased_filter, bones, build, gated_filter, motion_set, occlusion, refusals, trust
 from fusion.estimation.estimator import Estimator
 from fusion.estimation.evidence import Evidence, weigh
-from fusion.estimation.freshness import CONTINUE_S, LOST_AFTER_S, TOO_OLD_S, state_of
+from fusion.estimation.freshness import CONTINUE_S, LOST_AFTER_S, counts, state_of
 from fusion.estimation.gated_filter import GATE_SIGMA
 from fusion.estimation.known import Known, acquainted, copied, nothing
 from fusion.estimation.measurement import Flags, Heard, Measurement, Sight, read, sight
@@ -64,7 +64,7 @@ class SetMembership(Estimator):
 
     def update(self, sample: AlignedSample) -> tuple[Refusal, ...]:
         """Judge the sample, cut the set with what is believed of it, and move the point."""
-        if sample.t_s < self._state.t_s - TOO_OLD_S:
+        if not counts(sample.t_s, self._state.t_s):
             return ()
         self._state, refused = _updated(self._state, sample)
         return refused
