@@ -59,6 +59,9 @@ def break_a_line(folder):
         ("serve", "--config", "wrong-value.toml"),
         ("serve", "--config", "notes.txt"),
         ("serve", "--data", "notes.txt"),
+        ("experiments",),
+        ("experiments", "--out", "out", "--recordings", "nowhere"),
+        ("experiments", "--out", "out", "--recordings", "exercise"),
     ],
     ids=" ".join,
 )
