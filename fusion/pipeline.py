@@ -100,7 +100,7 @@ class Pipeline:
         self._account(watch, sample, what, refused)
         self._latest[sample.sensor] = mended
         if refused is not None:
-            self._newest_received_s = float(np.fmax(self._newest_received_s, sample.t_received_s))
+            self._newest_received_s = max(sample.t_received_s, self._newest_received_s)  # NaN is no larger
 
     def step(self, t_s: float) -> PipelineFrame:
         """Everything that can be said at `t_s` from what has been taken so far."""

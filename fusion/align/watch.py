@@ -22,6 +22,9 @@ OTHERS_CLEARLY_WORSE = 1.3
 RECENT_MENDS = 60
 OFTEN = 0.5
 
+FEET_FRAMES = 150
+"""Frames of the window, evenly, that show which way the toes point."""
+
 Frames = deque[tuple[float, SkeletonSample]]
 
 
@@ -47,6 +50,8 @@ class SensorWatch:
         """One per body, as long as it is open which of them the reference sees."""
         self._mended: deque[bool] = deque(maxlen=RECENT_MENDS)
         self._joints_tracked = self._refused_joints = 0
+        self._stacked: tuple[str, BodyTrack] | None = None
+        """The track that was asked for last: it is asked for several times in a row."""
 
     # --- what comes in
 
@@ -81,13 +86,11 @@ class SensorWatch:
     def track(self, body: str | None) -> BodyTrack | None:
         """The last seconds of a body on the receive clock; None where there are too few."""
         frames = self._frames.get(body or "")
-        if frames is None or len(frames) < FEWEST_FRAMES:
+        if body is None or frames is None or len(frames) < FEWEST_FRAMES:
             return None
-        return BodyTrack(
-            np.array([t_s for t_s, _ in frames]),
-            np.array([sample.positions_in_sensor for _, sample in frames]),
-            np.array([sample.state for _, sample in frames]),
-        )
+        if self._stacked is None or self._stacked[0] != body or self._stacked[1].t_s[-1] != frames[-1][0]:
+            self._stacked = body, _stacked(frames)
+        return self._stacked[1]
 
     def seen_for_s(self, body: str | None) -> float:
         """How long a body has been in view, within the window."""
@@ -107,7 +110,8 @@ class SensorWatch:
         """Look whether this sender can be right at all; handedness against the reference is looked at in `learn`."""
         track = self.track(body)
         if track is not None:
-            self.fault = unit_fault(track.positions[-FEWEST_FRAMES:], track.state[-FEWEST_FRAMES:]) or feet_fault(track)
+            self.fault = unit_fault(track.positions[-FEWEST_FRAMES:], track.state[-FEWEST_FRAMES:])
+            self.fault = self.fault or feet_fault(track.thinned(FEET_FRAMES))
 
     def learn(self, reference: BodyTrack, followed: str | None) -> str | None:
         """Learn from the reference's last seconds.
@@ -205,3 +209,11 @@ class SensorWatch:
         if len(self._mended) == RECENT_MENDS and sum(self._mended) > OFTEN * RECENT_MENDS:
             told.append(f"{self.sensor}: left and right look exchanged. Let the patient turn towards this sensor")
         return tuple(told)
+
+
+def _stacked(frames: Frames) -> BodyTrack:
+    return BodyTrack(
+        np.array([t_s for t_s, _ in frames]),
+        np.array([sample.positions_in_sensor for _, sample in frames]),
+        np.array([sample.state for _, sample in frames]),
+    )
