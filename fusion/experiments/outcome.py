@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
@@ -12,6 +13,7 @@ if TYPE_CHECKING:  # the figures' library is needed where they are drawn, and no
 NOT_GIVEN: Final = "not given"
 """Where the paper's text has lost the figure, or never had it."""
 Cell = str | float | int
+_WRITTEN: Final = re.compile(r"[-−]?\d[\d.,]*(e[-+]\d+)? ?%?|–")
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,8 +42,8 @@ class Table:
         return [[_text(cell, column) for cell, column in zip(row, self.columns, strict=True)] for row in self.rows]
 
     def is_number(self, column: int) -> bool:
-        """Whether a column holds numbers, which stand to the right."""
-        return any(not isinstance(row[column], str) for row in self.rows)
+        """Whether a column holds numbers, written out or not, which stand to the right."""
+        return all(_is_number(row[column]) for row in self.rows)
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,6 +86,10 @@ class Outcome:
 def columns(*headings: str, digits: int = 1) -> tuple[Column, ...]:
     """Columns of equal precision."""
     return tuple(Column(heading, digits) for heading in headings)
+
+
+def _is_number(cell: Cell) -> bool:
+    return not isinstance(cell, str) or _WRITTEN.fullmatch(cell) is not None
 
 
 def _text(cell: Cell, column: Column) -> str:

@@ -152,8 +152,8 @@ def _is(way: Way, name: str) -> bool:
 _CAPTION = "How often the healthy arm's joints are further from the truth than so much, all recordings together."
 _WHY = (
     "The oracle's rows are what perfect gating would be worth with the same filters: what remains there is the "
-    "sensors' own error, which no refusal can take away. Learnt on the way, the recordings' second clock counts as a "
-    "sensor that is late, and so the arm is told from an older past."
+    "sensors' own error, which no refusal can take away. Told to leave out nearly everything, a filter has nothing "
+    "left in some moments, and its worst case grows again."
 )
 EXPERIMENT = Experiment(
     "truth",

@@ -7,7 +7,7 @@ import pytest
 from fusion.errors import MachineError
 from fusion.experiments.experiment import Chapter, Experiment, Setup
 from fusion.experiments.making import made
-from fusion.experiments.outcome import Beside, Column, Outcome, Picture, Table
+from fusion.experiments.outcome import Beside, Column, Outcome, Picture, Table, columns
 from fusion.experiments.output.files import write_all
 from fusion.experiments.output.made import Origin
 from fusion.experiments.output.markdown import markdown
@@ -78,3 +78,8 @@ def test_a_folder_that_cannot_be_made_is_named(results, tmp_path):
     (tmp_path / "taken").write_text("a file")
     with pytest.raises(MachineError, match="taken"):
         write_all(results, ORIGIN, tmp_path / "taken")
+
+
+def test_numbers_stand_to_the_right_written_out_or_not():
+    table = Table("t", "t", columns("a", "b", "c"), (("1.5", 2.5, "x"), ("99.1%", float("nan"), "3")))
+    assert [table.is_number(k) for k in range(3)] == [True, True, False]
