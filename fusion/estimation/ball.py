@@ -16,7 +16,7 @@ from fusion.estimation.motion_set import ACCELERATION_MAX
 
 LEAST_M: Final = 0.02
 """Shared by sensors that agree perfectly."""
-SHARED: Final = 2.5
+SHARED: Final = 2.3
 """What sensors share, in root mean squares of their distance from the point between them; the least for which the truth
 is in the ball at every instant with errors as in [Du2016 Table 1] of a frame-to-frame correlation of 0.9."""
 START_APART_M: Final = 0.045
@@ -51,8 +51,11 @@ def learn(joint: Record, off_m: float, shared: bool, passed_s: float) -> None:
 
 
 @kernel
-def radius_m(joint: Record, believed_s: float, t_s: float) -> float:
-    """The ball's radius at `t_s`; infinite for a joint never believed."""
+def radius_m(joint: Record, believed_s: float, sensors: int, t_s: float) -> float:
+    """The ball's radius at `t_s`; infinite for a joint never believed.
+
+    `sensors` believed of late: a lone one errs by √2 as much as the mean of two.
+    """
     worst_m: float = joint.worst_m
-    shared_m = LEAST_M + SHARED * sqrt(joint.apart_m2)
+    shared_m = LEAST_M + SHARED * sqrt(joint.apart_m2 * (1 if sensors > 1 else 2))
     return shared_m + worst_m + ACCELERATION_MAX / 2 * max(t_s - believed_s, 0.0) ** 2

@@ -197,7 +197,9 @@ def _tell(known: Known, from_s: float, t_s: float) -> tuple[Floats, Floats, Floa
     build.keep(known.build, joints, positions)
     for j in range(count):
         glide_m = length((joints[j].glide_m[0], joints[j].glide_m[1], joints[j].glide_m[2]))
-        radius_m = glide_m + ball.radius_m(joints[j], trust.last_believed_s(known.words[j]), t_s)
+        words = known.words[j]
+        believed_s, sensors = trust.last_believed_s(words), trust.believed_lately(words, t_s)
+        radius_m = glide_m + ball.radius_m(joints[j], believed_s, sensors, t_s)
         bound_m[j] = _tell_set(joints[j], radius_m, positions[j], shape_m2[j])
     build.cap(known.build, positions, bound_m, shape_m2)
     return positions, shape_m2, bound_m, states

@@ -49,6 +49,15 @@ def others_believed_s(words: Records, own: int) -> float:
 
 
 @kernel
+def believed_lately(words: Records, t_s: float) -> int:
+    """How many sensors were believed in a joint lately enough to count."""
+    count = 0
+    for k in range(len(words)):
+        count += t_s - words[k].believed_s <= SURE_FOR_S
+    return count
+
+
+@kernel
 def last_believed_s(words: Records) -> float:
     """When any of the sensors was last believed in a joint; -inf never."""
     return others_believed_s(words, -1)

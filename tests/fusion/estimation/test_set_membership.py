@@ -161,6 +161,32 @@ def test_sensors_that_insist_are_taken_after_half_a_second() -> None:
     assert np.linalg.norm(frame.positions_in_room - moved[-1].positions_in_room, axis=1).max() < 0.05
 
 
+def test_the_bound_holds_errors_of_table_1_that_change_slowly() -> None:
+    """Bounded as in [Du2016 Table 1], with a frame-to-frame correlation of 0.9; the ball learns how wide it must be."""
+    rng, estimator = np.random.default_rng(11), SetMembership()
+    std_m, most_m = np.array([0.0456, 0.0387, 0.0541]), np.array(BELIEVED_HALF_WIDTH_M)[[1, 2, 0]]
+    error, inside = {name: rng.normal(size=(JOINT_COUNT, 3)) for name in ("front", "side")}, []
+    for sample in both(12.0, noise_m=0.0):
+        own = error[sample.sensor] = 0.9 * error[sample.sensor] + np.sqrt(0.19) * rng.normal(size=(JOINT_COUNT, 3))
+        off_m = np.clip(own * std_m, -most_m, most_m) @ sample.rotation_sensor_to_room.T
+        estimator.update(changed(sample, slice(None), off_m))
+        if sample.t_s > 2.0:
+            frame = estimator.frame(sample.t_s)
+            off = np.linalg.norm(frame.positions_in_room - body_at(sample.t_s), axis=1)
+            inside.append(off <= frame.bound_m)
+    assert np.mean(inside) > 0.999
+
+
+def test_a_lone_sensor_leaves_a_wider_bound_than_two() -> None:
+    two, _ = run(list(both(4.0)))
+    one, _ = run(list(both(4.0)))
+    for k in range(15):
+        t_s = 4.0 + k * FRAME_S
+        run([sample_at(t_s), sample_at(t_s + FRAME_S / 2, "side")], two)
+        run([sample_at(t_s)], one)
+    assert (one.frame(4.5).bound_m > two.frame(4.5).bound_m).all()
+
+
 def test_an_inferred_joint_leaves_a_wider_bound_than_a_tracked_one() -> None:
     estimator, _ = run([changed(sample, WRIST, state=TrackingState.INFERRED) for sample in both(2.0)])
     bound_m = estimator.frame(2.0).bound_m
