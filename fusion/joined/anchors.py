@@ -14,7 +14,7 @@ from typing import Final
 import numpy as np
 
 from fusion.align.space import POINTS_PER_INDEPENDENT, Moments, Mounting, mounting
-from fusion.joined.multilateration import robust_position
+from fusion.joined.multilateration import position_of
 from fusion.messages import Floats, PositionSample
 
 MEMORY_S: Final = 60.0
@@ -31,6 +31,8 @@ UP_WEIGHT: Final = 30.0
 """The prior on up, in m²: so many pairs a metre above the middle."""
 CORRELATED: Final = 4.0
 """So many pairs count as one; `mounting` reckons with whole skeletons at 30 Hz."""
+UNTOLD_M: Final = 0.3
+"""Doubt of a position that its own ranges do not bear out."""
 LARGEST_TURN: Final = 2.0
 """A chord of the unit circle is no longer."""
 SPEED_M_S: Final = 1.5
@@ -82,12 +84,12 @@ def in_room(frame: AnchorFrame, lately: Lately, t_s: float) -> tuple[Floats, flo
     found = frame.mounting
     if found is None or not lately or frame.count < LEAST_SAMPLES:
         return None
-    place = _place(frame, found, lately)
+    place, doubt_m = _place(frame, found, lately)
     noise_m = max(float(np.sqrt(frame.square_m2)), LEAST_STD_M)
     turn_std = found.rotation_std_rad * np.sqrt(CORRELATED / POINTS_PER_INDEPENDENT)
     turn = min(SIGMAS * turn_std, LARGEST_TURN)
     away_m = float(np.linalg.norm(place - frame.moments.mean_reference))
-    return place, SIGMAS * noise_m + turn * away_m + SPEED_M_S * max(t_s - lately[-1].t_s, 0.0)
+    return place, SIGMAS * noise_m + doubt_m + turn * away_m + SPEED_M_S * max(t_s - lately[-1].t_s, 0.0)
 
 
 def _links_learnt(frame: AnchorFrame, pelvis: Floats, tag: PositionSample) -> AnchorFrame:
@@ -113,23 +115,24 @@ def _judged(frame: AnchorFrame, pelvis: Floats, lately: Lately) -> AnchorFrame:
     """Remember how far the located tag is from the pelvis that cameras see."""
     if frame.mounting is None or frame.link_count.min(initial=np.inf) < LEAST_SAMPLES:
         return frame
-    off = _place(frame, frame.mounting, lately) - pelvis
+    off = _place(frame, frame.mounting, lately)[0] - pelvis
     share = 1.0 / min(frame.count + 1.0, MEMORY_SAMPLES)
     return replace(
         frame, square_m2=frame.square_m2 + share * (float(off @ off) / 3 - frame.square_m2), count=frame.count + 1.0
     )
 
 
-def _place(frame: AnchorFrame, found: Mounting, lately: Lately) -> Floats:
-    """From the ranges with their biases taken off where there are any, each link's mean lately; else as told."""
-    start: Floats = found.rotation @ lately[-1].position_in_anchors + found.translation_m
+def _place(frame: AnchorFrame, found: Mounting, lately: Lately) -> tuple[Floats, float]:
+    """From the ranges with their biases taken off, each link's mean lately, else as told; and its doubt."""
+    told: Floats = found.rotation @ lately[-1].position_in_anchors + found.translation_m
     if not len(frame.bias_m):
-        return start
+        return told, 0.0
     ranges = np.array([sample.range_m for sample in lately])
     there = np.isfinite(ranges)
     mean = np.where(there, ranges, 0.0).sum(axis=0) / np.where(there.any(axis=0), there.sum(axis=0), np.nan)
     sigma_m = np.maximum(1.25 * frame.deviation_m, LEAST_STD_M)
-    return robust_position(_anchors_in_room(found, lately[-1].anchors), mean - frame.bias_m, sigma_m, start)
+    stand = _anchors_in_room(found, lately[-1].anchors)
+    return position_of(stand, mean - frame.bias_m, sigma_m, told) or (told, UNTOLD_M)
 
 
 def _anchors_in_room(found: Mounting, anchors: Floats) -> Floats:

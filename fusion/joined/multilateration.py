@@ -1,44 +1,81 @@
-"""A position from ranges whose links are known: least squares that a blocked link does not pull."""
+"""A position from ranges whose links are known, when one or two of them may be blocked."""
 
 from __future__ import annotations
 
+from functools import cache
+from itertools import combinations
 from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fusion.messages import Floats
 
-ROUNDS: Final = 8
-TOO_LONG: Final = 1.5
-"""In deviations: what is in the way only lengthens a range, so a longer one is doubted soon."""
-TOO_SHORT: Final = 3.0
-STIFFNESS: Final = 1e-3
-"""Share of the information that holds a direction which no link tells."""
+MOST_BLOCKED: Final = 2
+BLOCKED_COST: Final = 9.0
+"""Twice the negative logarithm of how probable a blocked link is, one time in twenty, and of its range, which may then
+be anything up to some decimetres too long."""
+TOO_SHORT_COST: Final = 16.0
+"""More, where it measured too short: what is in the way only lengthens."""
+IN_QUESTION: Final = 0.01
+"""What is less probable is left out of the tolerance."""
+ROUNDS: Final = 5
 
 
-def robust_position(anchors: Floats, range_m: Floats, sigma_m: Floats, start: Floats) -> Floats:
-    """The least Σ ρ((r − |p − a|)/σ), by Gauss–Newton with weights anew in every round.
+def position_of(anchors: Floats, range_m: Floats, sigma_m: Floats, start: Floats) -> tuple[Floats, float] | None:
+    """Where the tag is, averaged over which links may be blocked.
 
-    The weight falls as the square of the residual beyond 1.5σ too long or 3σ too short (Geman and McClure's kind of
-    loss), and its width shrinks from wide to narrow, so that the start does not matter.
+    Every set with up to two links left out is solved by Gauss–Newton, all at once. How probable each is follows from
+    Σ (r − |p − a|)²/σ² over the links used and a cost for each that is not. Often a blocked link can be explained away
+    by another place: then both count.
 
     Args:
         anchors: (A, 3) m.
         range_m: (A,) m, biases taken off; NaN where there is none.
         sigma_m: (A,) m.
-        start: (3,) m; returned where there is nothing to go by.
+        start: (3,) m, within a metre or two.
+
+    Returns:
+        (3,) m, the mean over the sets, and how far from it the farthest is that is not out of the question, m. None
+        where fewer than three links have a range.
     """
     there = np.isfinite(range_m)
     stand, wanted, sigma = anchors[there], range_m[there], sigma_m[there]
-    position = start
-    for k in range(ROUNDS):
-        away = position - stand
-        distance = np.maximum(np.linalg.norm(away, axis=1), 1e-6)
-        left = (wanted - distance) / sigma
-        limit = np.where(left > 0, TOO_LONG, TOO_SHORT) * 2.0 ** max(3 - k, 0)
-        weight = np.minimum(1.0, (limit / np.maximum(np.abs(left), 1e-9)) ** 2)
-        rows = away / (distance * sigma)[:, None]
-        information = rows.T @ (weight[:, None] * rows)
-        hold = STIFFNESS * np.trace(information) + 1e-9
-        position = position + np.linalg.solve(information + hold * np.eye(3), rows.T @ (weight * left))
-    return position
+    if len(stand) < 3:
+        return None
+    used = _choices(len(stand))  # (C, A)
+    position = np.tile(start, (len(used), 1))
+    for _ in range(ROUNDS):
+        rows, left = _linear(stand, wanted, sigma, position)
+        information = np.einsum("ca,cai,caj->cij", used, rows, rows) + _HOLD
+        step = np.linalg.solve(information, np.einsum("ca,cai,ca->ci", used, rows, left)[..., None])
+        position = position + step[..., 0]
+    rows, left = _linear(stand, wanted, sigma, position)
+    without = BLOCKED_COST + np.where(left < 0, TOO_SHORT_COST, 0.0)
+    cost = np.where(used > 0, left**2, without).sum(axis=1)
+    probable = np.exp(-0.5 * (cost - cost.min()))
+    probable /= probable.sum()
+    mean = probable @ position
+    return mean, float(np.linalg.norm(position - mean, axis=1)[probable >= IN_QUESTION].max())
+
+
+_HOLD: Final = 1e-3 * np.eye(3)
+"""Holds a direction that no link tells."""
+
+
+@cache
+def _choices(links: int) -> NDArray[np.float64]:
+    """(C, A) which links each set uses, 1 or 0."""
+    most = max(min(MOST_BLOCKED, links - 3), 0)
+    left_out = [chosen for size in range(most + 1) for chosen in combinations(range(links), size)]
+    used = np.ones((len(left_out), links))
+    for row, chosen in zip(used, left_out, strict=True):
+        row[list(chosen)] = 0.0
+    return used
+
+
+def _linear(stand: Floats, wanted: Floats, sigma: Floats, position: Floats) -> tuple[Floats, Floats]:
+    """(C, A, 3) unit vectors over σ, and (C, A) residuals over σ."""
+    away = position[:, None] - stand
+    distance = np.maximum(np.linalg.norm(away, axis=2), 1e-6)
+    return away / (distance * sigma)[..., None], (wanted - distance) / sigma
