@@ -137,7 +137,7 @@ def updated(
     bearing = np.arctan2(-from_anchor[..., 1], -from_anchor[..., 0]) - state.yaw_rad
     rows = _jacobian(state, rig, from_anchor / distance[..., None])  # (A, K, 3 D + 4)
     innovation = range_m - distance - links.expected_bias(bearing, distance)
-    spread = np.sqrt(np.einsum("akm,mn,akn->ak", rows, state.covariance, rows) + links.sigma_m**2)
+    spread = np.sqrt(np.einsum("akm,mn,akn->ak", rows, state.covariance, rows) + links.sigma_m**2 + links.wander_m**2)
     fits = np.abs(innovation) < GATE * spread  # NaN compares false
     believed = fits & trusted
     if not believed.any():

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from fusion.errors import InputError
 from fusion.messages import Floats
 from fusion.ranging.calibration import Calibration
-from fusion.ranging.filter import RigState, pointed, predicted, started, tag_covariances, updated, with_sensor
+from fusion.ranging.filter import GATE, RigState, pointed, predicted, started, tag_covariances, updated, with_sensor
 from fusion.ranging.links import LinkModel
 from fusion.ranging.multilateration import solve_position
 from fusion.ranging.pushes import Pushes
@@ -135,7 +135,7 @@ class _Follower:
         there = np.isfinite(range_m)
         since_s = t_s - self._seen_s
         self._seen_s[there], self._latest_m[there] = t_s, range_m[there]
-        if t_s - self._last_fit_s > PATIENCE_S and t_s - self._tried_s >= RETRY_S:
+        if t_s - self._tried_s >= RETRY_S and (t_s - self._last_fit_s > PATIENCE_S or self._is_outvoted(t_s)):
             self._tried_s = t_s
             self._state = self._start(t_s) or self._state
         if self._state is None:
@@ -152,6 +152,18 @@ class _Follower:
             self._last_fit_s = t_s
         self._fitted_s[believed.any(axis=1)] = t_s
         return believed
+
+    def _is_outvoted(self, t_s: float) -> bool:
+        """Whether most anchors in sight contradict the filter and agree with one another, with one more than needed."""
+        seen = t_s - self._seen_s.max(axis=1) <= START_MEMORY_S
+        least = 4 if self._height_m is not None else 5
+        if seen.sum() < least or 2 * np.sum(t_s - self._fitted_s[seen] <= START_MEMORY_S) > seen.sum():
+            return False
+        links = self._links
+        recent = np.where(seen[:, None], self._latest_m, np.nan) - links.bias_m
+        gate_m = GATE * float(np.hypot(links.sigma_m, links.wander_m))
+        fixes = [solve_position(self._ranges.anchors, column, gate_m, self._height_m) for column in recent.T]
+        return all(fix is not None and fix.used.sum() >= max(least, seen.sum() - 1) for fix in fixes)
 
     def _start(self, t_s: float) -> RigState | None:
         """A state from the latest ranges alone, where enough tags can be solved."""
