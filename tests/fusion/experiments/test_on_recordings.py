@@ -4,8 +4,9 @@ from dataclasses import replace
 
 import pytest
 
+from fusion.align.opposed import Opposition
 from fusion.estimation import METHODS
-from fusion.experiments.catalogue import covered_90deg, numerics, truth, yao_untracked
+from fusion.experiments.catalogue import covered_90deg, numerics, truth, yao_swaps, yao_untracked
 from fusion.experiments.experiment import Setup
 from fusion.experiments.measures.oracle import without_wrong_joints
 from fusion.experiments.measures.turning import turned
@@ -73,6 +74,13 @@ def test_fusion_leaves_fewer_joints_untracked_than_either_sensor():
 def test_a_hidden_arm_is_better_told_by_two_sensors_than_by_one():
     found = yao_untracked.far_arm(turned(1, yao_untracked.SIDE_ON_DEG, 8.0))
     assert found.fused_mm < found.alone_mm
+
+
+def test_nobody_who_sits_has_walked_and_the_goals_are_those_of_walking(setup):
+    (table,) = yao_swaps.run(setup).tables
+    assert [row[:2] for row in table.rows] == [("study99-90deg", 0)]
+    goals = yao_swaps._beside(Opposition(100, 20, 1, 3, 200, 30, 6))
+    assert [beside.met for beside in goals] == [None, False, True]
 
 
 def test_sets_stay_sets_whatever_is_fed():
