@@ -46,8 +46,8 @@ RECENT_FRAMES, PATIENT_FRAMES = 60.0, 600.0
 """Bone lengths of a body are those of the last two seconds; the patient's, of the last twenty."""
 FITS, CANNOT_FIT = 1.5, 2.0
 """Misfits of bone lengths: up to the first somebody may be the patient, from the second on a followed body is not.
-On recordings of walking people 0.7 % of frames miss the first by themselves and none the second, while of other adults
-56 % and 23 % of half seconds do (docs/alignment.md)."""
+Of walking people hardly a frame misses their own lengths by the first, and none by the second; of other adults about
+half do, and a sixth (docs/alignment.md)."""
 CANNOT_FIT_FOR_S: Final = 0.5
 PROBATION_S: Final = 3.0
 """A body that was taken up again without a person's word is let go at the first misfit for so long."""

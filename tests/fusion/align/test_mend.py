@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fusion.align.mend import SIDED, Mending, SideKeeper
@@ -75,6 +75,7 @@ def test_a_walk_in_a_circle_keeps_left_and_right(bodies):
     assert np.mean(used) > 0.98
 
 
+@settings(max_examples=25)
 @given(st.floats(0.2, 2.5), st.sampled_from([-1, 1]), st.sampled_from([("front",), ("front", "right")]))
 def test_a_sensor_that_names_backs_rightly_is_never_mended(speed_rad_s, sign, sensors):
     body = _body()

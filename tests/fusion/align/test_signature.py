@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fusion.align.bodies import CANNOT_FIT, FITS
@@ -22,6 +22,7 @@ def learnt(frames, state=TRACKED, memory=60.0):
     return signature
 
 
+@settings(max_examples=30)
 @given(st.floats(-np.pi, np.pi), st.floats(-2, 2), st.floats(1, 4))
 def test_it_does_not_matter_where_somebody_stands_and_which_way_they_turn(facing_rad, x, z):
     from ..conftest import BODY, body_at  # a fixture cannot be given to @given
@@ -66,6 +67,45 @@ def test_real_people_go_on_fitting_themselves(recordings):
     misfits = np.concatenate([list(_misfits(folder)) for folder in sorted(recordings.glob("dual-kinect-study*"))])
     assert np.mean(misfits > FITS) < 0.02
     assert np.mean(misfits > CANNOT_FIT) < 0.001
+
+
+@pytest.mark.recordings
+def test_other_adults_are_told_apart_half_of_the_time(recordings):
+    """Three people before the same two sensors: what each showed first, against all that the others showed."""
+    people = [_shown(recordings / f"dual-kinect-study{study}-45deg") for study in ("07", "10", "12")]
+    misfits = np.array(
+        [
+            first.misfit(recent)
+            for first_of, _ in people
+            for others_first, recents in people
+            for sensor, first in first_of.items()
+            for recent in recents[sensor]
+            if others_first is not first_of
+        ]
+    )
+    assert np.mean(misfits > FITS) > 0.4
+    assert np.mean(misfits > CANNOT_FIT) > 0.1
+
+
+def _shown(folder):
+    """Of each sensor's one body: its first four seconds, and every half second's last two."""
+    first, recents = {}, {}
+    for stream in read_recording(folder).skeleton_streams:
+        recent = Signature.unknown()
+        for k, sample in enumerate(stream.samples):
+            if k == 120:
+                first[stream.sensor] = learnt_from(stream.samples[:k])
+            recent = recent.after(sample.positions_in_sensor, sample.state, 60.0)
+            if k > 60 and k % 15 == 0:
+                recents.setdefault(stream.sensor, []).append(recent)
+    return first, recents
+
+
+def learnt_from(samples):
+    signature = Signature.unknown()
+    for sample in samples:
+        signature = signature.after(sample.positions_in_sensor, sample.state, 600.0)
+    return signature
 
 
 def _misfits(folder):
