@@ -67,7 +67,7 @@ def test_after_30_s_of_truth_the_rest_is_located_and_the_bound_holds(real, optio
 
 @pytest.mark.recordings
 def test_biases_learnt_without_truth_bring_most_of_what_truth_brings(real):
-    raw, own = (real(*options)[1] for options in ((), ("--self-calibrate", 30)))
+    raw, own = (real(*options)[1] for options in (("--tags", "T0"), ("--tags", "T0", "--self-calibrate", 30)))
     rms_raw, rms_own = (np.sqrt(np.mean(np.sum(off[:, :2] ** 2, axis=1))) for off in (raw, own))
     assert rms_own < 0.5 * rms_raw
 
