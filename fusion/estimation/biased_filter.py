@@ -16,6 +16,8 @@ from __future__ import annotations
 from math import exp, sqrt
 from typing import Final
 
+import numpy as np
+
 from fusion.compiled import Record, Records, kernel
 from fusion.estimation import gated_filter
 from fusion.estimation.freshness import CONTINUE_S
@@ -42,7 +44,7 @@ FIELDS: Final = [("glide_m", "f8", (3,)), *gated_filter.FIELDS]  # from the filt
 def predict(joint: Record, words: Records, from_s: float, to_s: float) -> None:
     """Move a joint on, and what its position and velocity have to do with the biases; `words` (K,) are its sensors'."""
     dt = to_s - from_s
-    if not dt > 0:
+    if not 0 < dt < np.inf:  # an older sample, or the very first
         return
     gated_filter.predict(joint, from_s, to_s, density(joint, to_s))
     for k in range(len(words)):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -198,7 +198,12 @@ class Scene:
 
 
 def a_scene(
-    rng: np.random.Generator, sensors: int, kind: str, together: bool, latest_s: float = 0.0, length_s: float = 1.5
+    rng: np.random.Generator,
+    sensors: int,
+    kind: str,
+    together: bool,
+    latest_s: float = 0.0,
+    length_s: float = 1.5,
 ) -> Scene:
     """Anything that keeps its bounds."""
     lenses = [a_lens(rng, f"sensor {k}") for k in range(sensors)]
@@ -207,8 +212,3 @@ def a_scene(
     motion = a_motion(rng, times_s, together)
     instants = [np.searchsorted(times_s, own) for own in ticks]
     return Scene(motion, words_of(rng, lenses, kind, motion, instants, latest_s))
-
-
-def at_once(sample: AlignedSample, t_s: float) -> AlignedSample:
-    """The same sample at another instant."""
-    return replace(sample, t_s=t_s, t_received_s=t_s)
