@@ -92,7 +92,7 @@ def _magnitude(text: Bytes, at: int, end: int) -> tuple[float, bool]:
     number, digits, places, seen_point = 0, 0, 0, False
     while at < end and digits <= _EXACT_DIGITS:
         if _ZERO <= text[at] <= _NINE:
-            number = number * 10 + (np.int64(text[at]) - _ZERO)
+            number = number * 10 + int(np.int64(text[at]) - _ZERO)
             digits += 1
             places += seen_point
         elif text[at] == _POINT and not seen_point:
