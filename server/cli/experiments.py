@@ -14,7 +14,7 @@ from rich.table import Table
 
 from fusion.errors import InputError, MachineError
 from fusion.experiments.experiment import Experiment, Setup
-from fusion.experiments.output.files import write_all
+from fusion.experiments.output.files import write_one, write_page
 from fusion.experiments.output.made import Made, Origin
 from fusion.experiments.output.markdown import markdown as as_markdown
 from fusion.experiments.registry import chosen
@@ -58,7 +58,7 @@ def experiments(
     _need_matplotlib()
     setup = Setup(seed, effort, Shelf(recordings) if recordings else None, Loopback)
     origin = Origin(_command(names or [], recordings, markdown), seed, __version__, recordings is not None)
-    _write(_made(picked, setup), origin, out, markdown)
+    _write(_made(picked, setup, out), origin, out, markdown)
 
 
 def _list(picked: tuple[Experiment, ...]) -> None:
@@ -89,8 +89,8 @@ def _command(names: list[str], recordings: Path | None, markdown: Path | None) -
     return " ".join(parts)
 
 
-def _made(picked: tuple[Experiment, ...], setup: Setup) -> list[Made]:
-    """Make them while showing how far each is."""
+def _made(picked: tuple[Experiment, ...], setup: Setup, out: Path) -> list[Made]:
+    """Make them while showing how far each is; each is written as soon as it is made."""
     from fusion.experiments.making import made  # draws: needs matplotlib, which is known to be there by now
 
     columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
@@ -104,6 +104,7 @@ def _made(picked: tuple[Experiment, ...], setup: Setup) -> list[Made]:
             progress.update(bar, completed=share)
 
         for each in made(picked, setup, watch):
+            write_one(each, out)
             bar = bars[each.experiment.name]
             progress.update(bar, completed=1.0)
             progress.stop_task(bar)
@@ -112,7 +113,7 @@ def _made(picked: tuple[Experiment, ...], setup: Setup) -> list[Made]:
 
 
 def _write(finished: list[Made], origin: Origin, out: Path, markdown: Path | None) -> None:
-    page = write_all(finished, origin, out)
+    page = write_page(finished, origin, out)
     if markdown is not None:
         _write_text(markdown, as_markdown(finished, origin))
     _summary(finished)

@@ -8,7 +8,7 @@ from fusion.errors import MachineError
 from fusion.experiments.experiment import Chapter, Experiment, Setup
 from fusion.experiments.making import made
 from fusion.experiments.outcome import Beside, Column, Outcome, Picture, Table, columns
-from fusion.experiments.output.files import write_all
+from fusion.experiments.output.files import write_one, write_page
 from fusion.experiments.output.made import Origin
 from fusion.experiments.output.markdown import markdown
 from fusion.experiments.output.page import page
@@ -37,7 +37,9 @@ def results():
 
 
 def test_pictures_are_png_and_svg_and_tables_csv_beside_one_page(results, tmp_path):
-    index = write_all(results, ORIGIN, tmp_path / "new")
+    for each in results:
+        write_one(each, tmp_path / "new")
+    index = write_page(results, ORIGIN, tmp_path / "new")
     folder = tmp_path / "new" / "example"
     assert sorted(path.name for path in folder.iterdir()) == ["details.csv", "figures.csv", "line.png", "line.svg"]
     assert (folder / "line.png").read_bytes().startswith(b"\x89PNG")
@@ -77,7 +79,9 @@ def test_equal_data_give_equal_pictures(results):
 def test_a_folder_that_cannot_be_made_is_named(results, tmp_path):
     (tmp_path / "taken").write_text("a file")
     with pytest.raises(MachineError, match="taken"):
-        write_all(results, ORIGIN, tmp_path / "taken")
+        write_one(results[0], tmp_path / "taken")
+    with pytest.raises(MachineError, match="taken"):
+        write_page(results, ORIGIN, tmp_path / "taken")
 
 
 def test_numbers_stand_to_the_right_written_out_or_not():
