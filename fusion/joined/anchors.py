@@ -33,6 +33,8 @@ CORRELATED: Final = 4.0
 """So many pairs count as one; `mounting` reckons with whole skeletons at 30 Hz."""
 UNTOLD_M: Final = 0.3
 """Doubt of a position that its own ranges do not bear out."""
+USUAL_STD_M: Final = np.array([1.0, 0.15, 1.0])
+"""A pelvis keeps its height but for sitting down, which is 2 or 3 of these; it goes where it likes."""
 LARGEST_TURN: Final = 2.0
 """A chord of the unit circle is no longer."""
 SPEED_M_S: Final = 1.5
@@ -132,7 +134,8 @@ def _place(frame: AnchorFrame, found: Mounting, lately: Lately) -> tuple[Floats,
     mean = np.where(there, ranges, 0.0).sum(axis=0) / np.where(there.any(axis=0), there.sum(axis=0), np.nan)
     sigma_m = np.maximum(1.25 * frame.deviation_m, LEAST_STD_M)
     stand = _anchors_in_room(found, lately[-1].anchors)
-    return position_of(stand, mean - frame.bias_m, sigma_m, told) or (told, UNTOLD_M)
+    usual = frame.moments.mean_reference
+    return position_of(stand, mean - frame.bias_m, sigma_m, usual, USUAL_STD_M) or (told, UNTOLD_M)
 
 
 def _anchors_in_room(found: Mounting, anchors: Floats) -> Floats:

@@ -22,7 +22,9 @@ IN_QUESTION: Final = 0.01
 ROUNDS: Final = 5
 
 
-def position_of(anchors: Floats, range_m: Floats, sigma_m: Floats, start: Floats) -> tuple[Floats, float] | None:
+def position_of(
+    anchors: Floats, range_m: Floats, sigma_m: Floats, usual: Floats, usual_std_m: Floats
+) -> tuple[Floats, float] | None:
     """Where the tag is, averaged over which links may be blocked.
 
     Every set with up to two links left out is solved by Gauss–Newton, all at once. How probable each is follows from
@@ -33,7 +35,8 @@ def position_of(anchors: Floats, range_m: Floats, sigma_m: Floats, start: Floats
         anchors: (A, 3) m.
         range_m: (A,) m, biases taken off; NaN where there is none.
         sigma_m: (A,) m.
-        start: (3,) m, within a metre or two.
+        usual: (3,) m, where the tag usually is.
+        usual_std_m: (3,) m, by how much it may be elsewhere.
 
     Returns:
         (3,) m, the mean over the sets, and how far from it the farthest is that is not out of the question, m. None
@@ -44,23 +47,22 @@ def position_of(anchors: Floats, range_m: Floats, sigma_m: Floats, start: Floats
     if len(stand) < 3:
         return None
     used = _choices(len(stand))  # (C, A)
-    position = np.tile(start, (len(used), 1))
+    usually = np.diag(usual_std_m**-2)
+    position = np.tile(usual, (len(used), 1))
     for _ in range(ROUNDS):
         rows, left = _linear(stand, wanted, sigma, position)
-        information = np.einsum("ca,cai,caj->cij", used, rows, rows) + _HOLD
-        step = np.linalg.solve(information, np.einsum("ca,cai,ca->ci", used, rows, left)[..., None])
+        information = np.einsum("ca,cai,caj->cij", used, rows, rows) + usually
+        pull = np.einsum("ca,cai,ca->ci", used, rows, left) + (usual - position) @ usually
+        step = np.linalg.solve(information, pull[..., None])
         position = position + step[..., 0]
     rows, left = _linear(stand, wanted, sigma, position)
     without = BLOCKED_COST + np.where(left < 0, TOO_SHORT_COST, 0.0)
-    cost = np.where(used > 0, left**2, without).sum(axis=1)
+    away = (position - usual) / usual_std_m
+    cost = np.where(used > 0, left**2, without).sum(axis=1) + np.sum(away**2, axis=1)
     probable = np.exp(-0.5 * (cost - cost.min()))
     probable /= probable.sum()
     mean = probable @ position
     return mean, float(np.linalg.norm(position - mean, axis=1)[probable >= IN_QUESTION].max())
-
-
-_HOLD: Final = 1e-3 * np.eye(3)
-"""Holds a direction that no link tells."""
 
 
 @cache
