@@ -52,6 +52,5 @@ class ArmFollower:
         lengths = self._lengths.lengths
         if trunk is None or lengths is None:
             return None
-        ruler = self._lengths.ruler(fused, self._side)
-        witnessed = self._witnesses.hear(fused, trunk, self._side, samples, ruler)
+        witnessed = self._witnesses.hear(fused, trunk, self._side, samples)
         return arm_angles(fused, trunk, self._side, lengths, witnessed)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from math import isnan
-from typing import Final, NamedTuple
+from typing import Final
 
 import numpy as np
 
@@ -16,10 +16,6 @@ EVERY_S: Final = 0.1
 MEMORY: Final = 300
 """Samples remembered: 30 s. Old ones leave, so another patient's arm is forgotten."""
 ENOUGH: Final = 10
-DOUBTS: Final = 3
-DOUBTED_M: Final = 0.2
-"""So many samples of so large a misfit [Du2016 Table 1] are believed in before any was seen: a few samples that agree
-say little of what is usual."""
 USUAL_HAND_M: Final = 0.08
 """Wrist to the hand's centre for sensors that give no hand."""
 _JOINTS: Final = {side: arm(side) for side in Side}
@@ -34,9 +30,6 @@ class LengthLearner:
 
     def __init__(self) -> None:
         self._segments = (Lately(MEMORY), Lately(MEMORY), Lately(MEMORY))  # upper arm, forearm, hand
-        self._misfits = Lately(MEMORY)
-        for _ in range(DOUBTS):
-            self._misfits.take(DOUBTED_M)
         self._next_s = -np.inf
         self._lengths: ArmLengths | None = None
 
@@ -44,13 +37,6 @@ class LengthLearner:
     def lengths(self) -> ArmLengths | None:
         """What is known so far; None until a second's worth of frames has been seen."""
         return self._lengths
-
-    def ruler(self, frame: FusedFrame, side: Side) -> Ruler:
-        """How wrong the forearm's length is, as a share of it: what it shows of all errors of its size."""
-        known_m = self._segments[1].median
-        _, elbow, wrist, _ = _JOINTS[side]
-        now_m = length(step(frame.positions_in_room, elbow, wrist, 1.0))
-        return Ruler(self._misfits.median / known_m, abs(now_m - known_m) / known_m)
 
     def update(self, frame: FusedFrame, side: Side) -> None:
         """Take a frame in, if the arm is seen and the last one was long enough ago."""
@@ -63,18 +49,8 @@ class LengthLearner:
             return
         for segment, length_m in zip(self._segments, measured, strict=True):
             segment.take(length_m)
-        forearm = self._segments[1]
-        self._misfits.take(abs(measured[1] - forearm.median))
-        if forearm.count >= ENOUGH:
+        if self._segments[0].count >= ENOUGH:
             self._lengths = ArmLengths(*(segment.median for segment in self._segments))
-
-
-class Ruler(NamedTuple):
-    """|forearm's length − the learnt one| over the learnt one."""
-
-    usual: float
-    """Median of the last half minute."""
-    now: float
 
 
 def _measured(frame: FusedFrame, joints: tuple[int, int, int, int]) -> tuple[float, float, float]:

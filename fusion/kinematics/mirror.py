@@ -29,7 +29,8 @@ def mirror(healthy: JointAngles, previous: MirrorTarget | None) -> MirrorTarget:
     """The target for the other arm.
 
     Limb coordinates make mirroring a copy. The twist moves towards the measured one at a rate that falls to zero with
-    a straight elbow, where the measured twist means nothing; there the previous twist stays. Bounds are copied.
+    a straight elbow, where the measured twist means nothing; there the previous twist stays. Bounds are copied; what
+    the twist still has to go is added to its own.
 
     Args:
         healthy: the healthy arm's angles.
@@ -58,7 +59,7 @@ def _copied(healthy: JointAngles, twist_rad: float, velocities: Velocities) -> M
         twist_rad_s=twist_rad_s,
         elbow_rad_s=elbow_rad_s,
         swing_bound_rad=healthy.swing_bound_rad,
-        twist_bound_rad=healthy.twist_bound_rad,
+        twist_bound_rad=min(healthy.twist_bound_rad + abs(wrapped(healthy.twist_rad - twist_rad)), pi),
         elbow_bound_rad=healthy.elbow_bound_rad,
         valid=True,
     )

@@ -7,14 +7,14 @@ instant err together, and a direction is steadier than its ends. Two things that
 - every sensor's own segments, held against the told ones of that instant. As for the joints' balls, the bound is the
   worst disagreement of late, what no disagreement can show, and what an acceleration can have added since;
 - what is usual: no error is more than a few times as large as the usual disagreement, or as the usual misfit of the
-  forearm, whose length is known and whose misfit one sensor alone shows as well.
+  forearm in the sensors' samples, whose length is constant, so that one sensor alone shows it as well.
 
 The larger one counts. Assumptions and measurements: docs/angles.md.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import exp, inf, isnan, nan, pi, sin
 from typing import Final
 
@@ -23,8 +23,7 @@ import numpy as np
 from fusion.compiled import kernel
 from fusion.kinematics.angles import ARM_JOINTS, OUTWARD, Joints, PerAngle, pose_of, to_limb, wrapped
 from fusion.kinematics.lately import Lately
-from fusion.kinematics.lengths import Ruler
-from fusion.kinematics.vectors import Vector, angle_between, step, sum_of, unit
+from fusion.kinematics.vectors import Vector, angle_between, length, step, sum_of, unit
 from fusion.messages import AlignedSample, Floats, FusedFrame, TrunkFrame
 from fusion.skeleton import Side, TrackingState
 
@@ -44,17 +43,21 @@ LONGEST_GAP_S: Final = 0.15
 """Between told arms further apart than this none is made up."""
 
 
-AGREED: Final = PerAngle(0.16, 0.19, 0.19)
+AGREED: Final = PerAngle(0.19, 0.16, 0.16)
 """Errors that two sensors share, which no disagreement shows."""
-ALONE: Final = PerAngle(0.20, 0.31, 0.31)
+ALONE: Final = PerAngle(0.25, 0.33, 0.33)
 """What one sensor, held against nothing but its own past, does not show."""
-USUAL_APART: Final = PerAngle(5.5, 6.0, 8.0)
-USUAL_MISFITS: Final = PerAngle(8.0, 9.0, 8.0)
-"""No angle errs by more than this many usual disagreements, or usual misfits as shares of the forearm. With errors of
-equal size in every direction a standard deviation is 1.5 usual misfits: 5.3 of the two that make the swing; both other
-angles feel the elbow's error twice."""
-MISFIT_NOW: Final = 1.5
-"""A forearm that is too long or too short now shows an error of elbow or wrist; across, it may be this much larger."""
+USUAL_APART: Final = PerAngle(4.0, 5.0, 6.0)
+USUAL_MISFITS: Final = PerAngle(6.5, 7.0, 8.0)
+"""No angle errs by more than this many usual disagreements, or usual misfits of the forearm as a share of it.
+
+With errors of equal size in every direction a standard deviation is 1.5 misfits: 4.3 of the two that make the swing;
+both other angles feel the elbow's error twice. Told arms err less than the samples that show it.
+"""
+DOUBTS: Final = 15
+DOUBTED: Final = 0.8
+"""So many misfits of so large a size, 0.2 m [Du2016 Table 1] of 0.25 m, are believed in before any was seen: a few
+samples that agree say little of what is usual."""
 SMALL_RAD: Final = 0.7
 """Larger than this, errors are no longer small, and nothing that is learnt from them is believed."""
 
@@ -68,6 +71,14 @@ class _Word:
     """It saw the upper arm."""
     whole_s: float = -inf
     """It saw the whole arm."""
+    forearms_m: Lately = field(default_factory=lambda: Lately(MEMORY))
+    """How long it saw the forearm. Its own usual length counts: one that sees forearms too short errs in no angle."""
+
+    def misfit(self, forearm_m: float) -> float:
+        """How much a forearm is longer or shorter than the sensor's usual one, as a share of that."""
+        self.forearms_m.take(forearm_m)
+        usual_m = self.forearms_m.median
+        return abs(forearm_m - usual_m) / usual_m
 
 
 class Witnesses:
@@ -79,11 +90,12 @@ class Witnesses:
         self._words: dict[str, _Word] = {}
         self._worst = [START_RAD] * 3  # as in `PerAngle`
         self._usual = (Lately(MEMORY), Lately(MEMORY), Lately(MEMORY))
+        self._misfits = Lately(MEMORY)
+        for _ in range(DOUBTS):
+            self._misfits.take(DOUBTED)
         self._faded_s = inf
 
-    def hear(
-        self, frame: FusedFrame, trunk: TrunkFrame, side: Side, samples: tuple[AlignedSample, ...], ruler: Ruler
-    ) -> PerAngle:
+    def hear(self, frame: FusedFrame, trunk: TrunkFrame, side: Side, samples: tuple[AlignedSample, ...]) -> PerAngle:
         """Take what the sensors say of the told arm.
 
         Args:
@@ -91,7 +103,6 @@ class Witnesses:
             trunk: its trunk.
             side: which arm.
             samples: the latest of every sensor; each is taken once.
-            ruler: of the told forearm.
 
         Returns:
             The bounds at the frame's time.
@@ -104,7 +115,7 @@ class Witnesses:
             if sample.t_s > word.taken_s:
                 word.taken_s = sample.t_s
                 self._judge(sample, word, _seen(sample, frame, joints), (trunk, side))
-        return self._bounds(frame.t_s, ruler)
+        return self._bounds(frame.t_s)
 
     def _fade(self, t_s: float) -> None:
         left = exp(-max(t_s - self._faded_s, 0.0) / FORGET_S)
@@ -121,23 +132,27 @@ class Witnesses:
         if isnan(apart[0]):
             return
         word.upper_s = sample.t_s
+        self._learn(0, apart[0], apart[0])
         if seen == 3:
             word.whole_s = sample.t_s
-        for angle in range(3 if seen == 3 else 1):
-            self._worst[angle] = max(self._worst[angle], apart[angle])
-            self._usual[angle].take(apart[angle])
+            misfit = word.misfit(apart[3])
+            self._misfits.take(misfit)
+            self._learn(1, apart[1], max(apart[1], misfit))  # a wrist that wanders off shows in the length first
+            self._learn(2, apart[2], max(apart[2], misfit))
 
-    def _bounds(self, t_s: float, ruler: Ruler) -> PerAngle:
+    def _learn(self, angle: int, apart: float, shown: float) -> None:
+        self._usual[angle].take(apart)
+        self._worst[angle] = max(self._worst[angle], shown)
+
+    def _bounds(self, t_s: float) -> PerAngle:
         upper = _doubt([word.upper_s for word in self._words.values()], t_s)
         whole = _doubt([word.whole_s for word in self._words.values()], t_s)
-        misfit = MISFIT_NOW * ruler.now
-        swing, elbow, turn = self._worst
-        shown = (swing + upper.swing, max(elbow, misfit) + whole.elbow, max(turn, misfit) + whole.turn)
-        return PerAngle(*(self._believed(angle, shown[angle], ruler) for angle in range(3)))
+        hidden = (upper.swing, whole.elbow, whole.turn)
+        return PerAngle(*(self._believed(angle, self._worst[angle] + hidden[angle]) for angle in range(3)))
 
-    def _believed(self, angle: int, shown: float, ruler: Ruler) -> float:
-        usual = max(USUAL_APART[angle] * self._usual[angle].median, USUAL_MISFITS[angle] * ruler.usual)
-        bound = max(shown, usual)
+    def _believed(self, angle: int, shown: float) -> float:
+        by_sensors = USUAL_APART[angle] * self._usual[angle].median
+        bound = max(shown, by_sensors, USUAL_MISFITS[angle] * self._misfits.median)
         return bound if bound <= SMALL_RAD else pi
 
 
@@ -175,21 +190,21 @@ def _note(told: Floats, at: int, t_s: float, positions: Floats, joints: Joints) 
 @kernel
 def _apart(
     told: Floats, at: int, t_s: float, positions: Floats, axes: Floats, outward: float, joints: Joints
-) -> tuple[float, float, float]:
-    """How far a sensor's arm is from the told one at `t_s`: swing, elbow, and the forearm about the upper arm.
+) -> tuple[float, float, float, float]:
+    """How far a sensor's arm is from the told one at `t_s`: swing, elbow, the forearm's turn; and its forearm's length.
 
-    The last is the difference in twist times the sine of the told flexion: an arc that stays small for a straight
-    elbow, whose twist means nothing. NaN where no arm was told then.
+    The turn about the upper arm is the difference in twist times the sine of the told flexion: an arc that stays small
+    for a straight elbow, whose twist means nothing. NaN where no arm was told then.
     """
     shoulder, elbow, wrist = joints
     upper, forearm = _told_at(told, at, t_s)
     true = pose_of(unit(to_limb(upper, axes, outward)), unit(to_limb(forearm, axes, outward)))
     seen_upper = unit(to_limb(step(positions, shoulder, elbow, 1.0), axes, outward))
-    seen_forearm = unit(to_limb(step(positions, elbow, wrist, 1.0), axes, outward))
-    seen = pose_of(seen_upper, seen_forearm)
+    seen_forearm = to_limb(step(positions, elbow, wrist, 1.0), axes, outward)
+    seen = pose_of(seen_upper, unit(seen_forearm))
     swing = angle_between(seen.upper, true.upper)
     turn = abs(wrapped(seen.twist - true.twist)) * sin(true.flexion)
-    return swing, abs(seen.flexion - true.flexion), turn
+    return swing, abs(seen.flexion - true.flexion), turn, length(seen_forearm)
 
 
 @kernel

@@ -200,6 +200,39 @@ def test_the_twist_moves_little_when_the_arm_moves_little(
     assert close(twist_from_forearm(upper, forearm), twist_from_forearm(moved, forearm), 20 * step)
 
 
+H = 1e-6
+moves = st.lists(st.floats(-1, 1), min_size=9, max_size=9).map(lambda parts: H * np.reshape(parts, (3, 3)) / np.sqrt(3))
+TURNED = 1.01 * (2 * H / LENGTHS.upper_arm_m + 2 * H / LENGTHS.forearm_m)
+"""Joints that move by H turn the two segments by no more than this."""
+
+
+def before_and_after(pose: tuple[float, float, float, float], move: Floats, side: Side) -> list[JointAngles]:
+    points = arm_points_in_trunk(*pose, LENGTHS, side, shoulder_of(side))
+    return [angles_of(points + np.vstack([step, np.zeros(3)]), side) for step in (0 * move, move)]
+
+
+@BOTH
+@given(pose=st.tuples(planes, st.floats(0.0, pi), twists, st.floats(0.0, pi)), move=moves)
+def test_swing_and_flexion_are_continuous_through_the_workspace(
+    side: Side, pose: tuple[float, float, float, float], move: Floats
+) -> None:
+    """Also where the arm hangs or points up, and where the elbow is straight."""
+    before, after = before_and_after(pose, move, side)
+    assert np.linalg.norm(after.direction_in_limb - before.direction_in_limb) <= TURNED
+    assert abs(after.elbow_flexion_rad - before.elbow_flexion_rad) <= TURNED
+
+
+@BOTH
+@given(pose=st.tuples(planes, st.floats(0.0, 2.6), twists, st.floats(0.01, 3.1)), move=moves)
+def test_the_twist_is_continuous_but_for_straight_elbows_and_arms_overhead(
+    side: Side, pose: tuple[float, float, float, float], move: Floats
+) -> None:
+    """It turns with the segments over the sine of the bend, and with the swing by the tangent of half the elevation."""
+    before, after = before_and_after(pose, move, side)
+    about = abs(wrapped(after.twist_rad - before.twist_rad)) * np.sin(before.elbow_flexion_rad)
+    assert about <= TURNED * (1 + np.tan(0.5 * before.elevation_rad))
+
+
 def test_a_lost_elbow_gives_no_angles() -> None:
     frame = posed((0.3, 1.0, 0.2, 1.0), Side.LEFT)
     frame.state[arm(Side.LEFT)[1]] = 0

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fusion.kinematics.angles import arm_points_in_trunk
-from fusion.kinematics.lengths import ENOUGH, MEMORY, LengthLearner, Ruler
+from fusion.kinematics.lengths import ENOUGH, MEMORY, LengthLearner
 from fusion.messages import ArmLengths, FusedFrame
 from fusion.skeleton import JOINT_COUNT, Side, arm
 
@@ -62,28 +62,6 @@ def test_a_sensor_without_hands_gets_a_usual_hand() -> None:
     found = learnt(frames)
     assert found is not None
     assert found.hand_m == pytest.approx(0.08)
-
-
-def ruler(scatter_m: float, now_m: float = 0.26) -> Ruler:
-    """After arms whose forearm's length scatters, and one more of a given length."""
-    rng = np.random.default_rng(1)
-    learner = LengthLearner()
-    for k in range(200):
-        learner.update(frame(0.11 * k, ArmLengths(0.30, 0.26 + scatter_m * rng.normal(), 0.09)), Side.LEFT)
-    return learner.ruler(frame(23.0, ArmLengths(0.30, now_m, 0.09)), Side.LEFT)
-
-
-def test_a_constant_forearm_shows_no_error() -> None:
-    assert ruler(0.0) == pytest.approx((0.0, 0.0), abs=1e-12)
-
-
-def test_the_usual_misfit_is_the_median_of_what_the_length_was_off() -> None:
-    assert ruler(0.02).usual == pytest.approx(0.6745 * 0.02 / 0.26, rel=0.2)
-
-
-def test_a_forearm_that_is_too_long_now_shows_it_at_once() -> None:
-    assert ruler(0.001, 0.31).now == pytest.approx(0.05 / 0.26, rel=0.02)
-    assert ruler(0.001, 0.31).usual < 0.005
 
 
 def test_the_medians_are_those_of_the_last_half_minute() -> None:

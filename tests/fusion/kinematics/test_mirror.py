@@ -73,6 +73,14 @@ def test_bounds_travel_with_the_target() -> None:
     assert (target.swing_bound_rad, target.twist_bound_rad, target.elbow_bound_rad) == (0.1, 0.2, 0.3)
 
 
+def test_what_the_twist_still_has_to_go_is_added_to_its_bound() -> None:
+    before = mirror(angles(twist=0.0), None)
+    after = mirror(angles(t_s=0.01, twist=1.0), before)
+    assert after.twist_rad < 0.1
+    assert after.twist_bound_rad == pytest.approx(0.2 + 1.0 - after.twist_rad)
+    assert mirror(angles(t_s=0.02, twist=-3.0), after).twist_bound_rad == pi
+
+
 def test_an_invalid_arm_leaves_the_target_where_it_was_and_claims_nothing() -> None:
     before = mirror(angles(), None)
     after = mirror(replace(angles(t_s=0.01), elbow_flexion_rad=float("nan"), valid=False), before)
@@ -126,6 +134,24 @@ def test_the_twist_takes_the_shorter_way_round(first: float, then: float) -> Non
     before = mirror(angles(twist=first), None)
     after = mirror(angles(t_s=0.001, twist=then), before)
     assert abs(wrapped(after.twist_rad - then)) <= abs(wrapped(first - then)) + 1e-9
+
+
+@given(
+    elbow=st.floats(0.0, 3.1),
+    twist=st.floats(-3.1, 3.1),
+    change=st.tuples(*[st.floats(-0.05, 0.05)] * 2),
+    jump=st.floats(-3.1, 3.1),
+)
+def test_a_small_movement_in_a_tick_is_a_small_movement_of_the_target(
+    elbow: float, twist: float, change: tuple[float, float], jump: float
+) -> None:
+    """Whatever the measured twist does where the elbow is straight."""
+    before = mirror(angles(elbow=elbow, twist=twist), None)
+    moved = angles(t_s=0.01, elbow=elbow + change[0], elevation=1.0 + change[1], twist=wrapped(twist + jump))
+    after = mirror(moved, before)
+    assert abs(after.elbow_rad - before.elbow_rad) <= 0.05 + 1e-9
+    assert np.linalg.norm(after.direction_in_limb - before.direction_in_limb) <= 0.05 + 1e-9
+    assert abs(wrapped(after.twist_rad - before.twist_rad)) <= TWIST_RATE_RAD_S * 0.01 + 1e-9
 
 
 def test_a_change_of_sides_forgets_the_old_target() -> None:
