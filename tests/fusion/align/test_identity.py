@@ -224,3 +224,10 @@ def test_a_body_that_sinks_through_the_floor_is_not_used_and_is_the_patient_agai
     sinking = verdicts(finder, [built("1", t, (0.0, -20 * (t - 2) ** 2, 2.0)) for t in times(2, 2.4)])
     assert sinking[-1] is Verdict.SWIFT
     assert verdicts(finder, [built("1", t) for t in times(3, 3.2)])[-1] is Verdict.PATIENT
+
+
+def test_frames_that_were_held_up_and_come_in_a_bunch_are_still_the_patients(built):
+    """A busy computer reads three frames at once; each is a thirtieth of a second's movement and noise further."""
+    noise = np.random.default_rng(2).normal(0.0, 0.012, (90, 3))
+    bunched = [built("1", k // 3 / 10 + k % 3 * 0.001, np.array([0.03 * k / 3, 0, 2.0]) + noise[k]) for k in range(90)]
+    assert set(verdicts(PatientFinder(), bunched)[6:]) == {Verdict.PATIENT}
