@@ -108,11 +108,10 @@ _CAPTION = "Standard deviation of the error by axis after fusion, the paper's an
 _WHY = (
     "The average of two independent sensors of Table 1 at a right angle has √(45.6² + 54.1²)/2 = 35 mm in x and in z "
     "while nothing moves, and more while something does, as a sample is held until the next. Errors that stay from "
-    "frame to frame, as the simulated ones do (correlation 0.9) and a Kinect's do, hardly average out over time, so no "
-    "filter gains much on that, and what guards against wandering joints costs a little here (du-occlusion and truth "
-    "show what it is for). The paper does not say how long its errors last. θ = asin(z/r) is nearly singular for its "
-    "subject and not for ours. In the recordings each sensor's mean error was removed beforehand; what is left of it "
-    "after fusion is the alignment's."
+    "frame to frame, as the simulated ones do (correlation 0.9) and a Kinect's do, hardly average out over time, so "
+    "no filter gains much on that. The paper does not say how long its errors last. θ = asin(z/r) is nearly singular "
+    "for its subject and not for ours. In the recordings each sensor's mean error was removed beforehand; what is "
+    "left of it after fusion is the alignment's."
 )
 EXPERIMENT = Experiment(
     "du-table-2",
