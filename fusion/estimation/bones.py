@@ -27,11 +27,23 @@ LIMBS: Final = [
 ]
 """What hangs on one of these wanders with it."""
 
+FIRM: Final = [
+    (INDEX[parent + side], INDEX[child + side])
+    for side in ("Left", "Right")
+    for parent, child in (("Shoulder", "Elbow"), ("Elbow", "Wrist"), ("Hip", "Knee"), ("Knee", "Ankle"))
+] + [
+    (INDEX[parent], INDEX[child + side])
+    for side in ("Left", "Right")
+    for parent, child in (("SpineShoulder", "Shoulder"), ("SpineBase", "Hip"))
+]
+"""Parent and child of the bones that keep their length; hands and feet tremble too much to hold a limb."""
+
 BONE: Final = record(
     [
         ("parent", "i8"),
         ("child", "i8"),
         ("hangs", "?"),  # the child wanders with its parent
+        ("firm", "?"),  # the told body keeps its length
         ("length_m", "f8"),
         ("deviation_m", "f8"),  # mean absolute
         ("frames", "f8"),  # how often it was seen
@@ -45,6 +57,7 @@ def unknown(joints: int) -> Records:
     bones = np.zeros(len(between), BONE)
     bones["parent"], bones["child"] = between.T
     bones["hangs"] = np.isin(bones["parent"], LIMBS)
+    bones["firm"] = [tuple(pair) in FIRM for pair in between.tolist()]
     return bones
 
 

@@ -17,18 +17,7 @@ from fusion.estimation import bones
 from fusion.estimation.freshness import CONTINUE_S
 from fusion.estimation.vectors import distance, row
 from fusion.messages import Floats
-from fusion.skeleton import INDEX
 
-FIRM: Final = [
-    (INDEX[parent + side], INDEX[child + side])
-    for side in ("Left", "Right")
-    for parent, child in (("Shoulder", "Elbow"), ("Elbow", "Wrist"), ("Hip", "Knee"), ("Knee", "Ankle"))
-] + [
-    (INDEX[parent], INDEX[child + side])
-    for side in ("Left", "Right")
-    for parent, child in (("SpineShoulder", "Shoulder"), ("SpineBase", "Hip"))
-]
-"""Parent and child of the bones that keep their length; hands and feet tremble too much to hold a limb."""
 KNOWN_FRAMES: Final = 30
 """Samples after which a length counts: half a second of two sensors."""
 FORGET_FRAMES: Final = 3600
@@ -39,19 +28,13 @@ ROUNDS: Final = 3
 """One bone's end is another's beginning."""
 
 
-def unknown(joints: int) -> Records:
-    """(B,) the firm bones between the first `joints` joints, parents before their children; nothing learnt."""
-    every = bones.unknown(joints)
-    return every[[(int(bone["parent"]), int(bone["child"])) in FIRM for bone in every]]
-
-
 @kernel
 def learn(build: Records, joints: Records, t_s: float) -> None:
-    """Follow the lengths between joints that somebody sees."""
+    """Follow the lengths between joints that somebody sees; `build` (B,) are the fused body's bones."""
     for b in range(len(build)):
         bone = build[b]
         near, far = joints[bone.parent], joints[bone.child]
-        if t_s - near.seen_s < CONTINUE_S and t_s - far.seen_s < CONTINUE_S:
+        if bone.firm and t_s - near.seen_s < CONTINUE_S and t_s - far.seen_s < CONTINUE_S:
             bones.learn(bone, distance(near.position, far.position), FORGET_FRAMES)
 
 
@@ -62,8 +45,10 @@ def keep(build: Records, joints: Records, positions: Floats) -> None:
         for b in range(len(build)):
             bone = build[b]
             near, far = bone.parent, bone.child
+            if bone.frames < KNOWN_FRAMES:
+                continue
             length_m = distance(row(positions, near), row(positions, far))
-            if bone.frames < KNOWN_FRAMES or not length_m > 0:
+            if not length_m > 0:
                 continue
             spread = joints[near].pp + joints[far].pp + GIVE_M**2
             share = (bone.length_m - length_m) / length_m / spread

@@ -7,7 +7,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from fusion.compiled import Records, kernel, record
-from fusion.estimation import ball, bias, biased_filter, bones, build, gated_filter, motion_set, tremor, trust
+from fusion.estimation import ball, bias, biased_filter, bones, gated_filter, motion_set, tremor, trust
 from fusion.messages import Floats
 
 JOINT: Final = record([*biased_filter.FIELDS, *motion_set.FIELDS, *ball.FIELDS])
@@ -15,13 +15,15 @@ WORD: Final = record([*trust.FIELDS, *bias.FIELDS, *tremor.FIELDS])
 
 
 class Known(NamedTuple):
-    """Of J joints and K sensors; B bones as each sensor sees them, F of them firm."""
+    """Of J joints and K sensors, with B bones between the joints.
+
+    Every array of records costs a microsecond on its way into a kernel and out of it: few of them, whatever they hold.
+    """
 
     joints: Records  # (J,) of JOINT
     words: Records  # (J, K) of WORD
     bias_m2: Floats  # (J, K, K) covariances of the sensors' biases on one axis
-    bones: Records  # (K, B) of bones.BONE
-    build: Records  # (F,) of bones.BONE, of the fused body
+    bones: Records  # (1 + K, B) of bones.BONE: of the fused body, and as each sensor sees them
 
 
 def nothing(joints: int) -> Known:
@@ -30,8 +32,7 @@ def nothing(joints: int) -> Known:
         joints=_unseen(np.zeros(joints, JOINT)),
         words=np.zeros((joints, 0), WORD),
         bias_m2=np.zeros((joints, 0, 0)),
-        bones=np.tile(bones.unknown(joints), (0, 1)),
-        build=build.unknown(joints),
+        bones=bones.unknown(joints)[None],
     )
 
 
@@ -50,7 +51,7 @@ def acquainted(known: Known) -> Known:
 @kernel
 def copied(known: Known) -> Known:
     """A copy that kernels may change."""
-    return Known(known.joints.copy(), known.words.copy(), known.bias_m2.copy(), known.bones.copy(), known.build.copy())
+    return Known(known.joints.copy(), known.words.copy(), known.bias_m2.copy(), known.bones.copy())
 
 
 @kernel

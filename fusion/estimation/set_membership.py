@@ -111,7 +111,7 @@ def _take(
         biased_filter.predict(known.joints[j], known.words[j], from_s, t_s)
         motion_set.move(known.joints[j], t_s - from_s)
     measured = read(seen)
-    wandering = bones.judge(known.bones[own], measured)
+    wandering = bones.judge(known.bones[1 + own], measured)
     lens = (seen.lens_in_room[0], seen.lens_in_room[1], seen.lens_in_room[2])
     codes, room = np.zeros(len(known.joints), np.uint8), np.empty(known.words.shape[1])
     for j in range(len(known.joints)):
@@ -121,7 +121,7 @@ def _take(
             evidence = weigh(heard, lens, seen.rotation_sensor_to_room, joint, words, bias_m2, own, t_s, late_s)
             code = _use(joint, words, bias_m2, own, evidence, t_s, room)
             codes[j] = _why(heard) if evidence.outvoted else code
-    build.learn(known.build, known.joints, t_s)
+    build.learn(known.bones[0], known.joints, t_s)
     return known, codes
 
 
@@ -194,14 +194,14 @@ def _tell(known: Known, from_s: float, t_s: float) -> tuple[Floats, Floats, Floa
         for k in range(3):
             positions[j, k] = joints[j].position[k] + joints[j].glide_m[k]
         states[j] = state_of(joints[j].seen_s, t_s)
-    build.keep(known.build, joints, positions)
+    build.keep(known.bones[0], joints, positions)
     for j in range(count):
         glide_m = length((joints[j].glide_m[0], joints[j].glide_m[1], joints[j].glide_m[2]))
         words = known.words[j]
         believed_s, sensors = trust.last_believed_s(words), trust.believed_lately(words, t_s)
         radius_m = glide_m + ball.radius_m(joints[j], believed_s, sensors, t_s)
         bound_m[j] = _tell_set(joints[j], radius_m, positions[j], shape_m2[j])
-    build.cap(known.build, positions, bound_m, shape_m2)
+    build.cap(known.bones[0], positions, bound_m, shape_m2)
     return positions, shape_m2, bound_m, states
 
 
