@@ -41,9 +41,6 @@ class _Series(Generic[Sample]):
         first = bisect_right(self._samples, from_s, key=_time)
         return self._samples[first : bisect_right(self._samples, to_s, key=_time)]
 
-    def forget(self, before_s: float) -> None:
-        del self._samples[: bisect_right(self._samples, before_s, key=_time)]
-
 
 def _time(sample: SegmentSample | PositionSample) -> float:
     return sample.t_s
@@ -82,9 +79,3 @@ class Evidence:
     def speaks(self, t_s: float) -> bool:
         """Whether any inertial sensor says something of `t_s`."""
         return any(series.at(t_s) is not None for series in self._segments.values())
-
-    def forget(self, before_s: float) -> None:
-        """Drop what is older: a session lasts for hours, and nobody asks again."""
-        self._tag.forget(before_s)
-        for series in self._segments.values():
-            series.forget(before_s)
