@@ -229,7 +229,7 @@ def _run(pipeline: Pipeline, due: list[Due], grid: Floats, progress: Progress | 
         while at < len(due) and due[at].t_s <= t_s:
             pipeline.take(due[at].sample)
             at += 1
-        frame = pipeline.step(t_s - pipeline.lead_s)
+        frame = pipeline.step(t_s - pipeline.lead_s, of_sensors=False)
         yield frame.fused or pipeline.fused_at(t_s - pipeline.lead_s), frame.healthy, frame.target
         if progress is not None and k % 30 == 0:
             progress(k / len(grid))

@@ -102,15 +102,20 @@ class Pipeline:
         if refused is not None:
             self._newest_received_s = max(sample.t_received_s, self._newest_received_s)  # NaN is no larger
 
-    def step(self, t_s: float) -> PipelineFrame:
-        """Everything that can be said at `t_s` from what has been taken so far."""
+    def step(self, t_s: float, of_sensors: bool = True) -> PipelineFrame:
+        """Everything that can be said at `t_s` from what has been taken so far.
+
+        Args:
+            t_s: the instant.
+            of_sensors: whether to tell how each sensor does as well.
+        """
         self._learn(t_s)
         fused = self._fresh(t_s)
         samples = tuple(self._latest.values())
         arm = self._arm.follow(fused, samples)
         return PipelineFrame(
             t_s=t_s,
-            sensors=self.sensors(t_s),
+            sensors=self.sensors(t_s) if of_sensors else (),
             samples=samples,
             fused=fused,
             trunk=arm.trunk,

@@ -152,13 +152,14 @@ class BodiesInView:
             self._looking_since_s = t_s
         self._heard_s = t_s
         sighting = self._remember(sample, t_s, centre)
+        misfit = self.patient.misfit(sighting.build)
         if sighting.body == self.followed:
-            self._watch_bones(sighting)
+            self._watch_bones(sighting, misfit)
         self._decide(sighting.body, t_s, expected)
         verdict = self._verdict(sighting.body, expected)
         if verdict is not sighting.verdict:
             self.seen[sighting.body] = replace(sighting, verdict=verdict)
-        if verdict is Verdict.PATIENT and self.patient.misfit(sighting.build) < FITS:
+        if verdict is Verdict.PATIENT and misfit < FITS:
             self.patient = self.patient.after(sample.positions_in_sensor, sample.state, PATIENT_FRAMES)
         return verdict
 
@@ -227,10 +228,10 @@ class BodiesInView:
         self._follow(None, np.inf)
         self.others = {body for body in self.others if self.seen[body].since_s < t_s - BESIDE_S}
 
-    def _watch_bones(self, sighting: Sighting) -> None:
+    def _watch_bones(self, sighting: Sighting, misfit: float) -> None:
         """Let the followed body go once its bones have long been another person's."""
         probation = not self.confirmed and sighting.t_s - self.followed_since_s < PROBATION_S
-        if self.patient.misfit(sighting.build) < (FITS if probation else CANNOT_FIT):
+        if misfit < (FITS if probation else CANNOT_FIT):
             self._misfit_since_s = None
             return
         if self._misfit_since_s is None:

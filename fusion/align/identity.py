@@ -117,21 +117,22 @@ class PatientFinder:
             expected: where the patient should be in this sensor's frame.
         """
         before = self._places.get(sensor)
-        apart = any(dist(place.centre_in_room, centre_in_room) > APART_M for place in self._surer(sensor, t_s))
+        apart = self._elsewhere(sensor, t_s, centre_in_room)
         since_s = (t_s if before is None or before.apart_since_s is None else before.apart_since_s) if apart else None
         self._places[sensor] = _Place(t_s, centre_in_room, since_s)
         if since_s is not None and t_s - since_s > APART_FOR_S:
             self._views[sensor].reconsider(t_s, expected)
         return not apart
 
-    def _surer(self, sensor: str, t_s: float) -> list[_Place]:
-        """Where the surer sensors see the patient just now."""
-        own = self._sureness(sensor)
-        return [
-            place
+    def _elsewhere(self, sensor: str, t_s: float, centre_in_room: Floats) -> bool:
+        """Whether a surer sensor sees the patient elsewhere just now."""
+        return any(
+            abs(t_s - place.t_s) < TOGETHER_S
+            and dist(place.centre_in_room, centre_in_room) > APART_M
+            and self._sureness(other) > self._sureness(sensor)
             for other, place in self._places.items()
-            if other != sensor and abs(t_s - place.t_s) < TOGETHER_S and self._sureness(other) > own
-        ]
+            if other != sensor
+        )
 
     def _sureness(self, sensor: str) -> tuple[bool, bool, float, int]:
         """Of two that are equal in everything, the one that came first."""

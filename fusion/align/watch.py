@@ -22,6 +22,7 @@ OTHERS_CLEARLY_WORSE = 1.3
 RECENT_MENDS = 60
 OFTEN = 0.5
 
+TRACKED = int(TrackingState.TRACKED)
 FEET_FRAMES = 150
 """Frames of the window, evenly, that show which way the toes point."""
 
@@ -49,7 +50,8 @@ class SensorWatch:
         self._candidates: dict[str, AlignmentLearner] = {}
         """One per body, as long as it is open which of them the reference sees."""
         self._mended: deque[bool] = deque(maxlen=RECENT_MENDS)
-        self._joints_tracked = self._refused_joints = 0
+        self._newest: SkeletonSample | None = None
+        self._refused_joints = 0
         self._stacked: tuple[str, BodyTrack] | None = None
         """The track that was asked for last: it is asked for several times in a row."""
 
@@ -68,7 +70,7 @@ class SensorWatch:
 
     def note(self, sample: SkeletonSample, refused_joints: int, mended: bool) -> None:
         """Remember what became of the patient's sample."""
-        self._joints_tracked = int(np.count_nonzero(sample.state == TrackingState.TRACKED))
+        self._newest = sample
         self._refused_joints = refused_joints
         self._mended.append(mended)
 
@@ -170,7 +172,7 @@ class SensorWatch:
             is_reference=is_reference,
             frames_per_s=self._rate(now_s),
             latency_s=self.clock.delay_s + self._lag_s(lead_s),
-            joints_tracked=self._joints_tracked,
+            joints_tracked=_tracked(self._newest) if self._newest else 0,
             clock_offset_s=self._clock_offset(reference),
             residual_m=0.0 if is_reference else found.residual_m if found else float("nan"),
             aligned=self.fault is None and (is_reference or found is not None),
@@ -209,6 +211,11 @@ class SensorWatch:
         if len(self._mended) == RECENT_MENDS and sum(self._mended) > OFTEN * RECENT_MENDS:
             told.append(f"{self.sensor}: left and right look exchanged. Let the patient turn towards this sensor")
         return tuple(told)
+
+
+def _tracked(sample: SkeletonSample) -> int:
+    """How many of its joints are tracked."""
+    return int(np.count_nonzero(sample.state == TRACKED))
 
 
 def _stacked(frames: Frames) -> BodyTrack:
