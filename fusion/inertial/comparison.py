@@ -45,9 +45,17 @@ class Comparison:
     truth: Floats  # (T, 3, 3) m
     found: Floats  # (T, 3, 3) m
     placement: Placement
-    rms_m: Floats  # (3,)
-    rms_per_axis_m: Floats  # (3, 3) joint, axis
     correlation: Floats  # (3,) mean over the axes of Pearson's coefficient; NaN for a joint that does not move
+
+    @property
+    def error_m(self) -> Floats:  # (T, 3, 3) joint, axis
+        """What was found less the truth."""
+        return self.found - self.truth
+
+    @property
+    def rms_m(self) -> Floats:  # (3,)
+        """Root mean square distance of each joint from the truth."""
+        return np.asarray(np.sqrt(np.mean(np.sum(self.error_m**2, axis=-1), axis=0)))
 
 
 def compare_like_liu(seed: int, errors: SensorErrors | None = None, duration_s: float = 60.0) -> Comparison:
@@ -66,9 +74,7 @@ def compare_like_liu(seed: int, errors: SensorErrors | None = None, duration_s: 
     inertial = track_simulated(arm).positions[:, :3]
     placed = place(inertial, truth)
     found = placed.applied(inertial)
-    off = found - truth
-    rms = np.sqrt(np.mean(np.sum(off**2, axis=-1), axis=0))
-    return Comparison(arm.t_s, truth, found, placed, rms, np.sqrt(np.mean(off**2, axis=0)), _correlations(found, truth))
+    return Comparison(arm.t_s, truth, found, placed, _correlations(found, truth))
 
 
 def place(inertial: Floats, optical: Floats) -> Placement:

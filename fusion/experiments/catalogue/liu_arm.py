@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from fusion.experiments.experiment import Chapter, Experiment, Setup
-from fusion.experiments.measures.liu_comparison import JOINTS, Compared, compared
 from fusion.experiments.outcome import Beside, Cell, Column, Outcome, Picture, Table, columns
 from fusion.experiments.palette import FIRST, FUSED, SECOND
-from fusion.inertial.accuracy import PAPER_CORRELATION, WORN, track_simulated
-from fusion.inertial.simulation import SensorErrors, simulate_arm
+from fusion.inertial.accuracy import PAPER_CORRELATION, WORN
+from fusion.inertial.comparison import JOINTS, Comparison, compare_like_liu
+from fusion.inertial.simulation import SensorErrors
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -22,17 +22,15 @@ CASES: Final = {
     "the sensors' own errors": SensorErrors(),
     "worn on skin (3°), after a rough pose (5°)": WORN,
 }
-RATE_HZ: Final = 100.0
 
 
 def run(setup: Setup) -> Outcome:
     """Both cases on the same simulated movements."""
     seeds = tuple(setup.seed + k for k in range(setup.many(RUNS)))
-    cases: dict[str, list[Compared]] = {name: [] for name in CASES}
+    cases: dict[str, list[Comparison]] = {name: [] for name in CASES}
     for number, (name, errors) in enumerate(CASES.items()):
         for k, seed in enumerate(seeds):
-            arm = simulate_arm(seed, setup.long(LENGTH_S, 30.0), RATE_HZ, errors)
-            cases[name].append(compared(arm.positions[:, :3], track_simulated(arm).positions[:, :3]))
+            cases[name].append(compare_like_liu(seed, errors, setup.long(LENGTH_S, 30.0)))
             setup.progress((number * len(seeds) + k + 1) / (len(CASES) * len(seeds)))
     worn = list(cases.values())[-1]
     return Outcome(
@@ -44,24 +42,24 @@ def run(setup: Setup) -> Outcome:
     )
 
 
-def _beside(joint: int, runs: list[Compared]) -> tuple[Beside, ...]:
+def _beside(joint: int, runs: list[Comparison]) -> tuple[Beside, ...]:
     name = JOINTS[joint]
-    correlation = float(np.mean([run.correlation(joint) for run in runs]))
+    correlation = float(np.mean([run.correlation[joint] for run in runs]))
     return (
         Beside(f"{name}: correlation with the truth (worn)", f"{PAPER_CORRELATION[name]:.2f}", f"{correlation:.2f}"),
         Beside(f"{name}: position error, rms (worn)", "not given", f"{1e3 * _rms_m(joint, runs):.0f} mm"),
     )
 
 
-def _rms_m(joint: int, runs: list[Compared]) -> float:
-    return float(np.sqrt(np.mean([np.mean(np.sum(run.error_m[:, joint] ** 2, axis=1)) for run in runs])))
+def _rms_m(joint: int, runs: list[Comparison]) -> float:
+    return float(np.sqrt(np.mean([run.rms_m[joint] ** 2 for run in runs])))
 
 
-def _table(number: int, name: str, runs: list[Compared]) -> Table:
+def _table(number: int, name: str, runs: list[Comparison]) -> Table:
     rows: list[tuple[Cell, ...]] = []
     for joint, label in enumerate(JOINTS):
         off = 1e3 * np.concatenate([np.linalg.norm(run.error_m[:, joint], axis=1) for run in runs])
-        correlation = float(np.mean([run.correlation(joint) for run in runs]))
+        correlation = float(np.mean([run.correlation[joint] for run in runs]))
         figures = (1e3 * _rms_m(joint, runs), float(np.percentile(off, 95)), float(off.max()))
         paper = PAPER_CORRELATION[label]
         rows.append((label, *figures, correlation, "not given" if paper is None else f"{paper:.2f}"))
@@ -74,13 +72,12 @@ def _table(number: int, name: str, runs: list[Compared]) -> Table:
     return Table(f"case-{number + 1}", f"Simulated arms, {name}", headings, tuple(rows))
 
 
-def _draw(figure: Figure, run: Compared) -> None:
+def _draw(figure: Figure, run: Comparison) -> None:
     panels = figure.subplots(3, 1, sharex=True, sharey=True)
     step = 5
-    t_s = np.arange(len(run.truth))[::step] / RATE_HZ
     for axes, joint in zip(panels, (2, 1, 0), strict=True):
         for axis, colour in enumerate((FIRST, SECOND, FUSED)):
-            axes.plot(t_s, 1e3 * run.error_m[::step, joint, axis], color=colour, lw=1, label="xyz"[axis])
+            axes.plot(run.t_s[::step], 1e3 * run.error_m[::step, joint, axis], color=colour, lw=1, label="xyz"[axis])
         axes.set_title(JOINTS[joint])
         axes.set_ylabel("error [mm]")
     panels[0].legend(ncols=3, loc="lower right", bbox_to_anchor=(1, 1))
