@@ -16,7 +16,9 @@ LEARN_FRAMES: Final = 30
 FORGET_FRAMES: Final = 300
 """Afterwards a length follows slowly, over ten seconds."""
 STEP_MAX_M: Final = 0.02
-"""No single frame moves a length further, so that a few wild ones do not count."""
+"""No single frame moves a length further, so that a few wild ones do not count ..."""
+STEP_DEVIATIONS: Final = 2.0
+"""... unless the length is usually further off: then its beginning was wild. 2 to 3 serve."""
 SPREAD_MAX_M: Final = 0.1
 """No single frame counts for more in the usual deviation."""
 DEVIATIONS: Final = 5.0
@@ -99,9 +101,10 @@ def learn(bone: Record, length_m: float, forget_frames: int) -> None:
     """Follow the length: a running mean, over so many frames at most, with bounded steps."""
     misfit = length_m - bone.length_m
     share = 1 / min(bone.frames + 1, forget_frames)
+    step_max_m = max(STEP_MAX_M, STEP_DEVIATIONS * bone.deviation_m)
     if bone.frames == 0:
         bone.length_m = length_m
     else:
-        bone.length_m += share * min(max(misfit, -STEP_MAX_M), STEP_MAX_M)
+        bone.length_m += share * min(max(misfit, -step_max_m), step_max_m)
         bone.deviation_m += share * (min(abs(misfit), SPREAD_MAX_M) - bone.deviation_m)
     bone.frames += 1

@@ -50,7 +50,7 @@ def keep(build: Records, joints: Records, positions: Floats) -> None:
             length_m = distance(row(positions, near), row(positions, far))
             if not length_m > 0:
                 continue
-            spread = joints[near].pp + joints[far].pp + GIVE_M**2
+            spread = joints[near].pp + joints[far].pp + max(GIVE_M, bone.deviation_m) ** 2
             share = (bone.length_m - length_m) / length_m / spread
             for axis in range(3):
                 along = share * (positions[far, axis] - positions[near, axis])

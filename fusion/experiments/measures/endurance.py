@@ -9,7 +9,9 @@ from typing import Final
 import numpy as np
 
 from fusion.estimation import METHODS
-from fusion.messages import AlignedSample, FusedFrame
+from fusion.estimation.measurement import Flags
+from fusion.experiments.measures.carried_sets import carried
+from fusion.messages import AlignedSample, Floats, FusedFrame
 from fusion.skeleton import TrackingState
 
 ASKED_EVERY: Final = 10
@@ -26,10 +28,12 @@ class Endured:
     steps: int
     looks: int
     not_a_number: int
-    """Looks at which a joint once seen had a position, set or bound that is not a number."""
+    """Looks at which a joint once seen had a position, set or bound that is not a number, told or carried."""
     not_symmetric: int
+    """Looks at which a set or covariance was not, of those told and those carried from step to step."""
     not_positive: int
-    least_eigenvalue_m2: float
+    worst_condition: float
+    """Least eigenvalue over the largest, of the worst matrix ever seen."""
     largest_bound_m: float
 
 
@@ -53,24 +57,30 @@ def endured(
             continue
         frame = estimator.frame(sample.t_s)
         seen |= frame.state == TrackingState.TRACKED
-        eigenvalue, found = _looked_at(frame, seen)
+        told = frame.shape_m2[seen], *(stack[seen] for stack in carried(estimator.snapshot()))
+        condition, found = _looked_at(frame, seen, told)
         looks, faults = looks + 1, faults + found
-        least, largest = min(least, eigenvalue), max(largest, float(frame.bound_m[seen].max(initial=0.0)))
+        least, largest = min(least, condition), max(largest, float(frame.bound_m[seen].max(initial=0.0)))
         if k % (steps // 50 or 1) == 0:
             progress(k / steps)
     not_a_number, not_symmetric, not_positive = faults.tolist()
     return Endured(steps, looks, not_a_number, not_symmetric, not_positive, least, largest)
 
 
-def _looked_at(frame: FusedFrame, seen: np.ndarray) -> tuple[float, tuple[int, int, int]]:
-    """The least eigenvalue of all sets of joints once seen, and whether anything is wrong with any."""
-    shape = frame.shape_m2[seen]
-    known = np.isfinite(frame.positions_in_room[seen]).all() and np.isfinite(shape).all()
-    if not (known and np.isfinite(frame.bound_m[seen]).all()):
+def _looked_at(frame: FusedFrame, seen: Flags, stacks: tuple[Floats, ...]) -> tuple[float, tuple[int, int, int]]:
+    """The worst condition of all matrices of joints once seen, and whether anything is wrong with any."""
+    numbers = (frame.positions_in_room[seen], frame.bound_m[seen], *stacks)
+    if not all(np.isfinite(part).all() for part in numbers):
         return np.inf, (1, 0, 0)
-    even = np.allclose(shape, shape.swapaxes(1, 2), rtol=1e-9, atol=0.0)
-    least = float(np.linalg.eigvalsh(shape).min(initial=np.inf))
+    even = all(np.allclose(stack, stack.swapaxes(1, 2), rtol=1e-9, atol=1e-15) for stack in stacks)
+    least = min(_condition(stack) for stack in stacks)
     return least, (0, int(not even), int(least <= 0))
+
+
+def _condition(stack: Floats) -> float:
+    """Least eigenvalue over the largest, the worst of (M, D, D)."""
+    eigenvalues = np.linalg.eigvalsh(stack)
+    return float((eigenvalues[:, 0] / eigenvalues[:, -1]).min(initial=np.inf))
 
 
 def _for_ever(samples: tuple[AlignedSample, ...], rng: np.random.Generator) -> Iterator[AlignedSample]:

@@ -8,7 +8,7 @@ from fusion.estimation import bones, build
 from fusion.estimation.set_membership import SetMembership, SetState
 from fusion.skeleton import JOINT_COUNT, TrackingState
 
-from .scene import ELBOW, FRAME_S, HAND, SHOULDER, WRIST, both, changed, sample_at
+from .scene import ELBOW, FRAME_S, HAND, SHOULDER, WRIST, body_at, both, changed, sample_at
 
 
 def shaken(seconds: float, seed: int = 5) -> SetMembership:
@@ -78,3 +78,11 @@ def test_what_keeps_its_length_hangs_together_from_the_spine() -> None:
     assert {SHOULDER, ELBOW, WRIST} <= set(children)
     for k, bone in enumerate(known):
         assert int(bone["parent"]) not in children[k:]
+
+
+def test_a_body_first_seen_wrongly_is_told_rightly_within_seconds() -> None:
+    estimator = SetMembership()
+    for number, sample in enumerate(both(5.0)):
+        estimator.update(changed(sample, ELBOW, [0.0, 0.3, 0.3]) if number < 6 else sample)
+    told = estimator.frame(5.0).positions_in_room
+    assert np.linalg.norm(told - body_at(5.0), axis=1).max() < 0.04

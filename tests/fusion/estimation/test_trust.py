@@ -66,6 +66,14 @@ def test_a_few_wild_frames_do_not_spoil_a_length() -> None:
     assert abs(learnt(samples).bones["length_m"][FOREARM] - 0.25) < 0.01
 
 
+def test_a_length_whose_first_frames_were_wild_is_right_within_seconds() -> None:
+    samples = of_front(5.0)
+    wild = [changed(sample, WRIST, [0.0, 0.3, 0.3]) for sample in samples[:10]]
+    known = learnt([*wild, *samples[10:]])
+    assert abs(known.bones["length_m"][FOREARM] - 0.25) < 0.03
+    assert not known.wandering(sample_at(5.0)).any()
+
+
 def test_nothing_is_called_wrong_before_a_length_is_known() -> None:
     known = learnt(of_front(0.5))
     assert not known.wandering(changed(sample_at(0.5), WRIST, 2.0)).any()
