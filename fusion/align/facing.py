@@ -14,19 +14,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import atan2, exp, hypot, log, pi, sqrt
+from math import atan2, exp, hypot, log, pi, radians, sqrt
 from typing import Final
 
 import numpy as np
 
-from fusion.align.facing_loops import looked, renamed, turned
+from fusion.align.facing_loops import heard, turned, usually_named, walked
 from fusion.messages import Floats, States
 from fusion.skeleton import INDEX
 
 DIRECTIONS: Final = 72
 DIRECTION_RAD: Final[Floats] = np.linspace(-np.pi, np.pi, DIRECTIONS, endpoint=False)  # (N,)
-UNKNOWN: Final[Floats] = np.full(DIRECTIONS, 0.5)
-TURN_RAD_SQRT_S: Final = np.radians(100.0)
+TURN_RAD_SQRT_S: Final = radians(100.0)
 """Standard deviation of a person's turn in one second; it grows with the root of time."""
 LOOKS_PER_S: Final = 7.5
 """Errors of a sensor last: its frames of one second are worth so many that err independently."""
@@ -40,11 +39,12 @@ USUAL: Final = (0.02, 0.52)
 EXCHANGES_PER_S: Final = 0.01
 EXCHANGES_SIDE_ON_PER_S: Final = 2.0
 """How often a sensor thinks again, and how often when it sees the person from the side."""
-JUMP_RAD, JUMP_RAD_S, JUMP_SPREAD_RAD = np.radians(30.0), np.radians(300.0), np.radians(6.0)
+JUMP_RAD, JUMP_RAD_S, JUMP_SPREAD_RAD = radians(30.0), radians(300.0), radians(6.0)
 """A line that turns by more than the first plus the second times the time between has been thought of anew."""
-HALF_TURN_RAD: Final = np.radians(110.0)
+HALF_TURN_RAD: Final = radians(110.0)
 """A jump further than this can only be an exchange."""
 THOUGHT_ANEW: Final = 0.9
+NEVER_ANEW: Final = (0.0, 0.0, 0.0)
 GAP_S: Final = 0.5
 """A sensor that has not seen the person for this long may name anew."""
 FORGOTTEN_S: Final = 3.0
@@ -133,12 +133,23 @@ class Facing:
         named = self.sensors.get(sensor)
         apart_s = max(t_s - named.t_s, 0.0) if named else 1.0 / LOOKS_PER_S
         row = named.row if named else len(self.sensors)
-        before = _named_anew(self.exchanged[row] if named else UNKNOWN, named, apart_s, line, towards_lens_rad)
+        if named is None or apart_s > GAP_S:
+            known, anew = self._met_anew(row, towards_lens_rad), NEVER_ANEW
+        else:
+            known, anew = self.exchanged, _anew(abs(_wrapped(line.facing_rad - named.facing_rad)), apart_s)
         looks = line.weight * min(LOOKS_PER_S * apart_s, 1.0)
-        share, renamed_row = looked(self.share, before, line.facing_rad, towards_lens_rad, ERRORS, looks)
-        exchanged = self.exchanged.copy() if named else np.vstack([self.exchanged, UNKNOWN])
-        exchanged[row] = renamed_row
+        lines = line.facing_rad, towards_lens_rad
+        share, exchanged = heard(self.share, known, row, lines, USUAL, anew, ERRORS, looks)
         return Facing(share, exchanged, {**self.sensors, sensor: _Named(row, t_s, line.facing_rad)}, self.t_s)
+
+    def _met_anew(self, row: int, towards_lens_rad: float) -> Floats:
+        """P(exchanged) (M, N) with that of a sensor that sees the person for the first time, or again after a gap."""
+        usual = usually_named(USUAL, towards_lens_rad, DIRECTIONS)
+        if row == len(self.exchanged):
+            return np.vstack([self.exchanged, usual])
+        exchanged = self.exchanged.copy()
+        exchanged[row] = 0.5 * (exchanged[row] + usual)
+        return exchanged
 
     def walked(self, velocity_m_s: tuple[float, float], for_s: float) -> Facing:
         """The belief after the person went with this horizontal velocity (x, z) for so long."""
@@ -146,10 +157,8 @@ class Facing:
         looks = WALK_LOOKS_PER_S * for_s * min(max((hypot(*velocity_m_s) - slow) / (brisk - slow), 0.0), 1.0)
         if looks <= 0.0:
             return self
-        off = np.cos(DIRECTION_RAD - atan2(*velocity_m_s))
-        forward = sqrt(SURE_WALK / (2 * pi)) * np.exp(SURE_WALK * (off - 1.0))
-        share = self.share * (FORWARD_SHARE * forward + (1.0 - FORWARD_SHARE) / (2 * pi)) ** looks
-        return Facing(share / share.sum(), self.exchanged, self.sensors, self.t_s)
+        share = walked(self.share, atan2(*velocity_m_s), SURE_WALK, FORWARD_SHARE, looks)
+        return Facing(share, self.exchanged, self.sensors, self.t_s)
 
 
 def shoulder_line(positions_in_room: Floats, state: States) -> ShoulderLine | None:
@@ -167,18 +176,13 @@ def shoulder_line(positions_in_room: Floats, state: States) -> ShoulderLine | No
     return None
 
 
-def _named_anew(
-    exchanged: Floats, named: _Named | None, apart_s: float, line: ShoulderLine, towards_lens_rad: float
-) -> Floats:
-    """P(exchanged) given ψ (N,) once a sensor had another frame in which to name the sides anew."""
-    if named is None or apart_s > GAP_S:
-        usual = renamed(UNKNOWN, towards_lens_rad, USUAL, (0.5, 0.0), 0.0)
-        return usual if named is None else 0.5 * (exchanged + usual)
-    jump_rad = abs(_wrapped(line.facing_rad - named.facing_rad))
+def _anew(jump_rad: float, apart_s: float) -> tuple[float, float, float]:
+    """How often a sensor named anew between two frames whose lines differ so much: in any view, besides that side-on,
+    and for certain.
+    """
     by_jump = THOUGHT_ANEW * _step(jump_rad - JUMP_RAD - JUMP_RAD_S * apart_s)
     certain = THOUGHT_ANEW * _step(jump_rad - HALF_TURN_RAD)
-    often = by_jump + apart_s * EXCHANGES_PER_S, apart_s * EXCHANGES_SIDE_ON_PER_S
-    return renamed(exchanged, towards_lens_rad, USUAL, often, certain)
+    return by_jump + apart_s * EXCHANGES_PER_S, apart_s * EXCHANGES_SIDE_ON_PER_S, certain
 
 
 def _step(over_rad: float) -> float:
