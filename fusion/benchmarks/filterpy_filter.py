@@ -13,7 +13,7 @@ from fusion.estimation.kalman import TRACKED_STD_M
 from fusion.messages import AlignedSample, Floats
 
 ACCELERATION_STD = 12.0
-"""m/s² per frame [methods §5]."""
+"""m/s² per frame, as in our own filter (`fusion.estimation.gated_filter`)."""
 
 
 class FilterPyBody:

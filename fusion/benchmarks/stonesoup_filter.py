@@ -22,7 +22,7 @@ from fusion.messages import AlignedSample, Floats
 
 EPOCH: Final = datetime(2000, 1, 1, tzinfo=UTC)
 ACCELERATION_DENSITY: Final = 12.0**2 / 30
-"""m²/s³: 12 m/s² per frame of 1/30 s [methods §5]."""
+"""m²/s³: 12 m/s² per frame of 1/30 s."""
 
 
 class StoneSoupBody:

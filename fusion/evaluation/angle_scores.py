@@ -17,7 +17,7 @@ from fusion.skeleton import JOINT_COUNT, Side, TrackingState
 
 SLOW_FROM_RAD: Final = 0.35
 HOLD_FROM_RAD: Final = 0.7
-"""[methods §6]: a robot's joint slows down from the one bound and is held from the other."""
+"""A robot's joint slows down from the one bound and is held from the other (SR-4, docs/safety.md)."""
 BENT_FROM_RAD: Final = radians(45.0)
 """The twist is asked for while the true elbow is bent further than this; a straight one does not tell it."""
 SWING, ELBOW, TWIST = range(3)
@@ -46,7 +46,7 @@ class AngleErrors:
 
 @dataclass(frozen=True, slots=True)
 class Engaged:
-    """Shares of instants by what the thresholds of methods §6 would do; NaN where there was no such instant."""
+    """Shares of instants by what these thresholds would do; NaN where there was no such instant."""
 
     instants: int
     engaged: float

@@ -1,1 +1,1 @@
-"""One estimator for all evidence about one body: cameras, inertial sensors, a radio tag, and anatomy [methods §10]."""
+"""One estimator for all evidence about one body: cameras, inertial sensors, a radio tag, and anatomy."""

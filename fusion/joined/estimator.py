@@ -6,7 +6,7 @@ Cameras are joined by an estimator of their own (any `Estimator`); its set of ea
     pelvis = tag ± tolerance                                                 (`anchors`)
     least <= |child − parent| <= most       every bone, and across an elbow  (`anatomy`)
 
-Whatever is silent is simply absent: its rule is missing, the sets are wider, and nothing else changes [methods §10].
+Whatever is silent is simply absent: its rule is missing, the sets are wider, and nothing else changes.
 """
 
 from __future__ import annotations

@@ -41,7 +41,7 @@ class Outcome:
     radio_alone: Floats
     """Least squares of all three ranges, instant by instant."""
     joined: Floats
-    """The paper's rule as methods.md §9 restates it."""
+    """The paper's rule as docs/ranging.md restates it."""
     mended: Floats
     """The same evidence joined by honest variances: what `locate` does."""
 

@@ -1,4 +1,4 @@
-"""Inertial displacement, and its join with a radio position by their variances [Shi; methods.md §9]."""
+"""Inertial displacement, and its join with a radio position by their variances [Shi]."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class Inertial:
 
     @property
     def sigma_m(self) -> float:
-        """σ_I = ½ · 0.05 · t², with t since the reset; per axis. The paper's formula is lost; this is methods.md's."""
+        """σ_I = ½ · 0.05 · t², with t since the reset; per axis. The paper's formula is lost; this is ours."""
         return 0.5 * ACCELERATION_SIGMA_M_S2 * self.since_reset_s**2
 
 
@@ -43,7 +43,7 @@ def joined(radio: Floats, radio_sigma_m: float, inertial: Inertial) -> Floats:
 def reset_if_worse(inertial: Inertial, radio_sigma_m: float, joined_position: Floats) -> Inertial:
     """Start the inertial deviation afresh where σ_U(n) < σ_I(n−1): the reckoning goes on from the joined position.
 
-    Its velocity is mended by what it was off by since the last reset, v += (x − x_I) / t: methods.md leaves the
+    Its velocity is mended by what it was off by since the last reset, v += (x − x_I) / t: the paper leaves the
     velocity open, and uncorrected it would make the position drift without bound. So σ_I never exceeds σ_U by more than
     one step's growth while the radio is good.
 

@@ -1,4 +1,4 @@
-"""The method of [Shi] as methods.md §9 restates it: least squares, two-anchor fallback, inertial join."""
+"""The method of [Shi]: least squares, two-anchor fallback, inertial join."""
 
 from __future__ import annotations
 

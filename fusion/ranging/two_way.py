@@ -23,7 +23,7 @@ class TwoWayStamps:
 
 
 def range_from_stamps(stamps: TwoWayStamps) -> float:
-    """The distance in metres [Shi; methods.md §9].
+    """The distance in metres [Shi].
 
     ToF = (Tround1·Tround2 − Treply1·Treply2) / (Tround1 + Tround2 + Treply1 + Treply2)
 

@@ -265,7 +265,7 @@ def real(folder: Path) -> dict[Way, Score]:
 
 @pytest.mark.recordings
 def test_the_baseline_is_as_good_as_it_is_known_to_be(recordings: Path) -> None:
-    """[methods §5] has p95 61 mm; its worst case hangs on whether one wandering wrist gets through the gate."""
+    """A plain gated filter has p95 61 mm; its worst case hangs on whether one wandering wrist gets through the gate."""
     kalman = real(recordings)[KALMAN[0]]
     assert kalman.p50_mm < 25
     assert kalman.p95_mm < 62
