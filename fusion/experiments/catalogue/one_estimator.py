@@ -1,4 +1,4 @@
-"""[methods §10]: all sensors in one estimator, each taken away in turn, and both cameras covered."""
+"""All sensors in one estimator, each taken away in turn, and both cameras covered."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def run(setup: Setup) -> Outcome:
 
 
 def _beside(found: dict[str, Judged]) -> list[Beside]:
-    """There is no paper to stand beside: the claims of methods §10."""
+    """There is no paper to stand beside: what docs/one-estimator.md claims."""
     shares = {
         f"{joint}, {name}": score(errors).inside_share
         for name, judged_ in found.items()
@@ -173,7 +173,7 @@ EXPERIMENT = Experiment(
     "one-estimator",
     Chapter.OURS,
     "One estimator: each sensor taken away in turn",
-    "The goal [methods §10]: a joint's set is cut by every camera, the inertial chain, the tag at the pelvis and "
+    "The goal: a joint's set is cut by every camera, the inertial chain, the tag at the pelvis and "
     "anatomy; losing any sensor widens the set and nothing else.",
     "A simulated patient with two cameras, four inertial sensors and a tag. After half a minute something is taken "
     "away, for good or for 5 or 20 s at a time, and the errors from half a second later on are scored.",

@@ -1,7 +1,7 @@
 """The error statistics of [Du2016, Tables 1 and 2]: mean, standard deviation and interval per axis.
 
 The paper's angles are φ = atan2(y, x) *about the optical axis* and θ = asin(z/r), both singular for a person straight
-in front of the lens; kept only to make its tables again [methods §4].
+in front of the lens; kept only to make its tables again.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """The extended set-membership filter letter by letter as [Du2016 §2.4] prints it; never used, only shown to fail.
 
 One joint: x = [p; v], p+ = p + v dt, v+ = v + w. It measures range, azimuth and elevation (the paper's own angles are
-singular before the lens, methods §4). The remainder of the linearised h is bounded over the predicted set.
+singular before the lens). The remainder of the linearised h is bounded over the predicted set.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The one estimator with each of its sensors taken away in turn, on a simulated patient [methods §10]."""
+"""The one estimator with each of its sensors taken away in turn, on a simulated patient."""
 
 from __future__ import annotations
 

@@ -19,7 +19,7 @@ from fusion.virtual_patient.sensor import DEMO, NoiseLevel
 from fusion.virtual_patient.trial import sensors_for, virtual_recording
 
 MOVED_M: Final = 0.8
-"""Where the model of small angles is asked about again [methods §3]."""
+"""Where the model of small angles is asked about again."""
 STEPS: Final = MOVED_M * np.array([[1.0, 0, 0], [-1.0, 0, 0], [0, 0, 1.0], [0, 0, -1.0]])
 
 
