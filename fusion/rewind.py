@@ -5,7 +5,6 @@ Rewinding changes the past; what is told of the present moves on from what was t
 
 from __future__ import annotations
 
-from bisect import bisect_right
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -51,7 +50,9 @@ class RewindingEstimator:
         """Take a sample at its own time; its refused joints, or None where it came too late to be used."""
         if self._steps and sample.t_s < self._steps[-1].sample.t_s - WINDOW_S:
             return None
-        place = bisect_right(self._steps, sample.t_s, key=lambda step: step.sample.t_s)
+        place = len(self._steps)
+        while place and self._steps[place - 1].sample.t_s > sample.t_s:
+            place -= 1
         later = [step.sample for step in self._steps[place:]]
         if later:
             self._estimator.restore(self._steps[place].before)
@@ -74,5 +75,5 @@ class RewindingEstimator:
 
     def _trim(self) -> None:
         oldest = self._steps[-1].sample.t_s - WINDOW_S
-        keep = bisect_right(self._steps, oldest, key=lambda step: step.sample.t_s)
-        del self._steps[:keep]
+        too_old = next(k for k, step in enumerate(self._steps) if step.sample.t_s > oldest)
+        del self._steps[:too_old]

@@ -11,12 +11,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
-from math import dist, hypot, isnan
+from math import hypot, isnan
 from typing import Final
 
 import numpy as np
 
-from fusion.align.loops import middle_seen
+from fusion.align.loops import apart, middle_seen
 from fusion.align.signature import Signature
 from fusion.messages import Floats, SkeletonSample, States
 from fusion.skeleton import INDEX, JOINT_COUNT
@@ -79,7 +79,7 @@ class Expected:
         if self.age_s > UNKNOWN_AFTER_S:
             return True
         reach = min(REACH_M + SPEED_M_S * self.age_s, FURTHEST_M)
-        return dist(centre, self.centre_in_sensor) < reach
+        return apart(centre, self.centre_in_sensor) < reach
 
 
 WhereExpected = Callable[[], Expected | None]
@@ -290,7 +290,7 @@ def trunk_centre(positions: Floats, state: States) -> Floats:
 
 
 def _nearest(seen: list[Sighting], to: Floats) -> str:
-    return min(seen, key=lambda one: dist(one.centre_in_sensor, to)).body
+    return min(seen, key=lambda one: apart(one.centre_in_sensor, to)).body
 
 
 def _velocity(before: Sighting | None, t_s: float, centre: Floats) -> tuple[float, float, float]:
@@ -307,4 +307,4 @@ def _velocity(before: Sighting | None, t_s: float, centre: Floats) -> tuple[floa
 def _jumped(before: Sighting, t_s: float, centre: Floats) -> bool:
     """Whether a number went to somebody else; after a silence anybody may have walked anywhere."""
     dt = t_s - before.t_s
-    return dt < ALIVE_S and dist(before.centre_in_sensor, centre) > JUMP_M + JUMP_SPEED_M_S * max(dt, 0.0)
+    return dt < ALIVE_S and apart(before.centre_in_sensor, centre) > JUMP_M + JUMP_SPEED_M_S * max(dt, 0.0)

@@ -8,10 +8,10 @@ then whose body has the patient's bones, then who has followed longer. A person'
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import dist
 from typing import Final
 
 from fusion.align.bodies import FITS, BodiesInView, Verdict, WhereExpected
+from fusion.align.loops import apart
 from fusion.messages import Floats, SkeletonSample
 
 APART_M: Final = 0.5
@@ -117,18 +117,20 @@ class PatientFinder:
             expected: where the patient should be in this sensor's frame.
         """
         before = self._places.get(sensor)
-        apart = self._elsewhere(sensor, t_s, centre_in_room)
-        since_s = (t_s if before is None or before.apart_since_s is None else before.apart_since_s) if apart else None
+        is_apart = self._elsewhere(sensor, t_s, centre_in_room)
+        since_s = (
+            (t_s if before is None or before.apart_since_s is None else before.apart_since_s) if is_apart else None
+        )
         self._places[sensor] = _Place(t_s, centre_in_room, since_s)
         if since_s is not None and t_s - since_s > APART_FOR_S:
             self._views[sensor].reconsider(t_s, expected)
-        return not apart
+        return not is_apart
 
     def _elsewhere(self, sensor: str, t_s: float, centre_in_room: Floats) -> bool:
         """Whether a surer sensor sees the patient elsewhere just now."""
         return any(
             abs(t_s - place.t_s) < TOGETHER_S
-            and dist(place.centre_in_room, centre_in_room) > APART_M
+            and apart(place.centre_in_room, centre_in_room) > APART_M
             and self._sureness(other) > self._sureness(sensor)
             for other, place in self._places.items()
             if other != sensor

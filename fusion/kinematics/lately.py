@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from bisect import bisect_left, insort
 from collections import deque
+from math import inf
 
 
 class Lately:
@@ -26,16 +27,15 @@ class Lately:
     @property
     def median(self) -> float:
         """Of those remembered; infinite where there is none."""
-        if not self._by_size:
-            return float("inf")
-        middle = self.count // 2
-        if self.count % 2:
-            return self._by_size[middle]
-        return 0.5 * (self._by_size[middle - 1] + self._by_size[middle])
+        in_order = self._by_size
+        if not in_order:
+            return inf
+        middle, is_odd = divmod(len(in_order), 2)
+        return in_order[middle] if is_odd else 0.5 * (in_order[middle - 1] + in_order[middle])
 
     def take(self, number: float) -> None:
         """Remember one more, which is not NaN."""
         self._by_time.append(number)
         insort(self._by_size, number)
-        if self.count > self._memory:
+        if len(self._by_size) > self._memory:
             del self._by_size[bisect_left(self._by_size, self._by_time.popleft())]

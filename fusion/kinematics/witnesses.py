@@ -147,19 +147,23 @@ class Witnesses:
     def _bounds(self, t_s: float) -> PerAngle:
         upper = _doubt([word.upper_s for word in self._words.values()], t_s)
         whole = _doubt([word.whole_s for word in self._words.values()], t_s)
-        hidden = (upper.swing, whole.elbow, whole.turn)
-        return PerAngle(*(self._believed(angle, self._worst[angle] + hidden[angle]) for angle in range(3)))
+        usual = self._misfits.median
+        return PerAngle(
+            self._believed(0, upper.swing, usual),
+            self._believed(1, whole.elbow, usual),
+            self._believed(2, whole.turn, usual),
+        )
 
-    def _believed(self, angle: int, shown: float) -> float:
+    def _believed(self, angle: int, hidden: float, misfit: float) -> float:
         by_sensors = USUAL_APART[angle] * self._usual[angle].median
-        bound = max(shown, by_sensors, USUAL_MISFITS[angle] * self._misfits.median)
+        bound = max(self._worst[angle] + hidden, by_sensors, USUAL_MISFITS[angle] * misfit)
         return bound if bound <= SMALL_RAD else pi
 
 
 def _doubt(heard_s: list[float], t_s: float) -> PerAngle:
     """What is hidden from those who saw the arm lately, and what an acceleration may have added since."""
     silence_s = max(t_s - max(heard_s, default=-inf), 0.0)
-    agreed = sum(t_s - heard <= AGREED_WITHIN_S for heard in heard_s) > 1
+    agreed = len([heard for heard in heard_s if t_s - heard <= AGREED_WITHIN_S]) > 1
     added = 0.5 * ACCELERATION_RAD_S2 * silence_s**2
     swing, elbow, turn = AGREED if agreed else ALONE
     return PerAngle(swing + added, elbow + added, turn + added)
