@@ -18,6 +18,7 @@ from fusion.skeleton import Side
 
 Floats = NDArray[np.float64]
 States = NDArray[np.uint8]
+Flags = NDArray[np.bool_]
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,11 +7,10 @@ from math import pi, radians
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fusion.kinematics.angles import arm_angles, wrapped
 from fusion.kinematics.body_frame import trunk_frame
-from fusion.messages import ArmLengths, Floats, FusedFrame, JointAngles
+from fusion.messages import ArmLengths, Flags, Floats, FusedFrame, JointAngles
 from fusion.recording.recording import Trouble
 from fusion.skeleton import JOINT_COUNT, Side, TrackingState
 
@@ -30,8 +29,6 @@ ROWS: Final = {
 }
 """What is scored: each angle, and the worst of those that a robot would be following."""
 _USUAL: Final = ArmLengths(0.29, 0.25, 0.08)  # needed for bounds only, of which the truth has none
-
-Flags = NDArray[np.bool_]
 
 
 @dataclass(frozen=True, slots=True)

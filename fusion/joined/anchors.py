@@ -14,6 +14,7 @@ from typing import Final
 import numpy as np
 
 from fusion.align.space import POINTS_PER_INDEPENDENT, Moments, Mounting, mounting
+from fusion.joined.bone_fit import UP_IN_ROOM
 from fusion.joined.multilateration import position_of
 from fusion.messages import Floats, PositionSample
 
@@ -39,7 +40,6 @@ LARGEST_TURN: Final = 2.0
 """A chord of the unit circle is no longer."""
 SPEED_M_S: Final = 1.5
 """A pelvis is no faster in therapy; what a position's age adds to its tolerance."""
-UP_IN_ROOM: Final = np.array([0.0, 1.0, 0.0])
 UP_IN_ANCHORS: Final = np.array([0.0, 0.0, 1.0])
 Lately = tuple[PositionSample, ...]
 """What the tag said lately, newest last."""

@@ -14,13 +14,10 @@ from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fusion.geometry import skew
 from fusion.joined.bone_fit import UPRIGHT, Sums, fit
-from fusion.messages import Floats
-
-Flags = NDArray[np.bool_]
+from fusion.messages import Flags, Floats
 
 MEMORY_S: Final = 40.0
 CORRELATED: Final = 4.0

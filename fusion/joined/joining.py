@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from fusion.joined import point
 from fusion.joined.boxes import Boxes, Distance, Offset, Place, Rule, contracted
 from fusion.joined.contractors import shrink_balls
-from fusion.messages import Floats, FusedFrame, Refusal, States
+from fusion.messages import Flags, Floats, FusedFrame, Refusal, States
 from fusion.skeleton import JOINT_COUNT, TrackingState
 
 CAMERAS: Final = "cameras"
@@ -21,7 +21,6 @@ TAG: Final = "tag"
 SWEEPS: Final = 2
 SHARED_M: Final = 0.05
 """What the evidence may err in common, so that joining it takes nothing off: where a camera believes to stand, skin."""
-Flags = NDArray[np.bool_]
 Kind = TypeVar("Kind", Offset, Place, Distance)
 
 

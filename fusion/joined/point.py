@@ -14,10 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fusion.joined.boxes import Offset, Place
-from fusion.messages import Floats
+from fusion.messages import Flags, Floats
 from fusion.skeleton import BONE_INDICES, JOINT_COUNT
 
-Flags = NDArray[np.bool_]
 BOUND_SIGMAS: Final = 4.0
 """A camera's or a tag's bound is so many of its deviations."""
 TOLERANCE_SIGMAS: Final = 3.0

@@ -7,9 +7,9 @@ from typing import Final
 
 import numpy as np
 
-from fusion.messages import Floats
+from fusion.messages import Flags, Floats
 from fusion.metrics.metric import PASSIVE_DRIVE, Metric
-from fusion.metrics.record import JOINTS, Flags, SessionRecord
+from fusion.metrics.record import JOINTS, SessionRecord
 from fusion.skeleton import Side
 
 LOWEST_PERCENT, HIGHEST_PERCENT = 2.0, 98.0

@@ -8,15 +8,13 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from fusion.messages import Floats
+from fusion.messages import Flags, Floats
 from fusion.skeleton import Side
 
 JOINTS: Final = ("plane", "elevation", "rotation", "elbow")
 """The columns of the angle arrays: the exoskeleton's joints, in its order."""
 ENGAGED: Final = "engaged"
 """The state in which the exoskeleton follows the mirror."""
-
-Flags = NDArray[np.bool_]
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,8 +8,7 @@ from typing import Final
 import numpy as np
 from scipy.signal import butter, sosfiltfilt
 
-from fusion.messages import Floats
-from fusion.metrics.record import Flags
+from fusion.messages import Flags, Floats
 
 RATE_HZ: Final = 50.0
 LONGEST_GAP_S: Final = 0.25

@@ -7,17 +7,14 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fusion.align.alignment import SensorAlignment
 from fusion.errors import RecordingError
 from fusion.evaluation.runs import SETTLE_S
 from fusion.evaluation.scores import truth_at
-from fusion.messages import Floats
+from fusion.messages import Flags, Floats
 from fusion.recording.recording import Recording, SkeletonStream, Trouble
 from fusion.skeleton import Side, TrackingState, arm
-
-Flags = NDArray[np.bool_]
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from fusion.experiments.measures.scene import Scene, Told, WhatIf, seen_alone, told
 from fusion.experiments.measures.standing import standing_stretches
-from fusion.messages import Floats, SkeletonSample
+from fusion.messages import Flags, Floats, SkeletonSample
 from fusion.offline import GRID_HZ
 from fusion.skeleton import TrackingState, arm
 
@@ -28,7 +28,6 @@ BEFORE_S: Final = 0.5
 SWAY_M: Final = 0.1
 HEARD_WITHIN_S: Final = 0.05
 FRAMES: Final = round(COVERED_S * GRID_HZ)
-Flags = NDArray[np.bool_]
 
 
 @dataclass(frozen=True, slots=True)
