@@ -18,7 +18,7 @@ FORGET_FRAMES: Final = 300
 STEP_MAX_M: Final = 0.02
 """No single frame moves a length further, so that a few wild ones do not count ..."""
 STEP_DEVIATIONS: Final = 2.0
-"""... unless the length is usually further off: then its beginning was wild. 2 to 3 serve."""
+"""... unless, in its first ten seconds, the length is usually further off: its beginning was wild. 2 to 3 serve."""
 SPREAD_MAX_M: Final = 0.1
 """No single frame counts for more in the usual deviation."""
 DEVIATIONS: Final = 5.0
@@ -101,7 +101,8 @@ def learn(bone: Record, length_m: float, forget_frames: int) -> None:
     """Follow the length: a running mean, over so many frames at most, with bounded steps."""
     misfit = length_m - bone.length_m
     share = 1 / min(bone.frames + 1, forget_frames)
-    step_max_m = max(STEP_MAX_M, STEP_DEVIATIONS * bone.deviation_m)
+    young = bone.frames < FORGET_FRAMES
+    step_max_m = max(STEP_MAX_M, STEP_DEVIATIONS * bone.deviation_m) if young else STEP_MAX_M
     if bone.frames == 0:
         bone.length_m = length_m
     else:

@@ -23,7 +23,8 @@ KNOWN_FRAMES: Final = 30
 FORGET_FRAMES: Final = 3600
 """Afterwards a length follows over a minute of two sensors; 10 s let it breathe."""
 GIVE_M: Final = 0.03
-"""How far a bone's length may be another for all that (the shoulder's joint slides); 0.02 to 0.04 m serve."""
+"""How far a bone's length may be another for all that (the shoulder's joint slides), where it is not further off as a
+rule; 0.02 to 0.04 m serve."""
 ROUNDS: Final = 3
 """One bone's end is another's beginning."""
 

@@ -39,7 +39,7 @@ def lengths_told(seconds: float) -> tuple[np.ndarray, np.ndarray]:
 def test_a_forearm_breathes_less_than_half_as_much_as_the_filters_would_have_it() -> None:
     told, free = lengths_told(4.0)
     assert told.std() < free.std() / 2
-    assert abs(told.mean() - 0.25) < 0.02
+    assert abs(told.mean() - 0.25) < 0.025  # noise lengthens a distance L by about its variance over L
 
 
 def test_keeping_the_bones_moves_the_less_sure_end_by_more() -> None:
