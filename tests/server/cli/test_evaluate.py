@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from fusion.evaluation.angle_scores import HOLD_FROM_RAD, SLOW_FROM_RAD
 from fusion.messages import SkeletonSample
 from fusion.recording.recording import Recording, SkeletonStream, TruthStream
 from fusion.recording.writer import write_recording
@@ -15,6 +16,7 @@ from fusion.skeleton import JOINT_COUNT, JOINTS, Side
 from fusion.virtual_patient.sensor import NO_NOISE
 from fusion.virtual_patient.trial import virtual_recording
 from server.cli import main as entry
+from server.config import GateConfig
 
 
 def written(path: Path, truth: bool = True) -> Path:
@@ -131,3 +133,8 @@ def test_true_orientations_need_the_sensor_that_they_are_of(tmp_path, monkeypatc
     (tmp_path / "recording.json").write_text(json.dumps({"format": "mirrorlimb-recording/1", "streams": streams}))
     assert run(monkeypatch, tmp_path) == 2
     assert "0 imu streams" in capsys.readouterr().err
+
+
+def test_angles_are_judged_by_the_thresholds_of_the_station_s_gate() -> None:
+    gate = GateConfig()
+    assert (SLOW_FROM_RAD, HOLD_FROM_RAD) == (gate.slow_from_rad, gate.hold_from_rad)
