@@ -137,4 +137,4 @@ def test_true_orientations_need_the_sensor_that_they_are_of(tmp_path, monkeypatc
 
 def test_angles_are_judged_by_the_thresholds_of_the_station_s_gate() -> None:
     gate = GateConfig()
-    assert (SLOW_FROM_RAD, HOLD_FROM_RAD) == (gate.slow_from_rad, gate.hold_from_rad)
+    assert (gate.slow_from_rad, gate.hold_from_rad) == (SLOW_FROM_RAD, HOLD_FROM_RAD)
