@@ -46,8 +46,6 @@ class InertialArm:
     long_axes: LongAxes
     hanging_flexion_rad: float
     """How far the elbow was bent while the arm hung, as learnt from its straightest moments; 0 without a pose."""
-    elbow_heading: Heading
-    wrist_heading: Heading
     off_hinge_rad: float
     """Root mean square of the turn that a two-axis elbow cannot have: the error of headings and calibration."""
 
@@ -85,9 +83,7 @@ def track_arm(side: Side, sensors: ArmSensors, lengths: ArmLengths, long_axes: L
     angles, off_hinge = _angles(upper_turn, forearm_turn * _about_x(hanging_flexion_rad), hand_turn)
     positions = joint_positions(angles, lengths)
     off_hinge_rad = float(np.sqrt(np.mean(off_hinge**2)))
-    return InertialArm(
-        side, upper.t_s, angles, positions, long_axes, hanging_flexion_rad, hinge.heading, wrist, off_hinge_rad
-    )
+    return InertialArm(side, upper.t_s, angles, positions, long_axes, hanging_flexion_rad, off_hinge_rad)
 
 
 def _segment_rotations(

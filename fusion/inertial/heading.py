@@ -50,8 +50,6 @@ class Heading:
     """The heading δ that takes the child's earth frame into the parent's, over time."""
 
     offset_rad: Floats  # (T,)
-    residual_rad_s: float
-    """Root mean square of what is left of the constraint."""
 
     def rotation(self) -> Rotation:
         """(T,) turns about up."""
@@ -107,7 +105,7 @@ def find_hinge(parent: Oriented, child: Oriented, parent_long: Floats, child_lon
     starts = [np.array([a, 0.0, d]) for a in np.arange(4) * np.pi / 4 for d in np.arange(6) * np.pi / 3]
     rough = _best(residual, starts)
     fine = _fit(residual, np.concatenate([rough.x[:2], np.full(_knots(pair.t_s), rough.x[2])]), fixed=2)
-    return Hinge(axis(*fine.x[:2]), _heading(parent.t_s, pair.t_s, fine.x[2:], residual(fine.x)))
+    return Hinge(axis(*fine.x[:2]), _heading(parent.t_s, pair.t_s, fine.x[2:]))
 
 
 def find_wrist_heading(parent: Oriented, child: Oriented, parent_long: Floats) -> Heading:
@@ -124,7 +122,7 @@ def find_wrist_heading(parent: Oriented, child: Oriented, parent_long: Floats) -
 
     rough = _best(residual, [np.array([d]) for d in np.arange(6) * np.pi / 3])
     fine = _fit(residual, np.full(_knots(pair.t_s), rough.x[0]), fixed=0)
-    return _heading(parent.t_s, pair.t_s, fine.x, residual(fine.x))
+    return _heading(parent.t_s, pair.t_s, fine.x)
 
 
 def _pair(parent: Oriented, child: Oriented) -> _Pair:
@@ -188,6 +186,6 @@ def _about_up(angle_rad: Floats) -> Rotation:
     return Rotation.from_rotvec(angle_rad[:, None] * np.array([0.0, 0.0, 1.0]))
 
 
-def _heading(t_s: Floats, fitted_t_s: Floats, knots: Floats, residual: Floats) -> Heading:
+def _heading(t_s: Floats, fitted_t_s: Floats, knots: Floats) -> Heading:
     at = np.linspace(fitted_t_s[0], fitted_t_s[-1], len(knots))
-    return Heading(np.interp(t_s, at, knots), float(np.sqrt(np.mean(residual**2))))
+    return Heading(np.interp(t_s, at, knots))
