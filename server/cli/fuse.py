@@ -12,7 +12,7 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
 from fusion.estimation import METHODS
-from fusion.offline import FusedRecording, Timings, fuse_recording
+from fusion.offline import FusedRecording, OtherSensors, Timings, fuse_recording
 from fusion.recording.reader import read_recording
 from server.cli.fused_files import make_folder, write_fused
 
@@ -61,7 +61,12 @@ def _summary(fused: FusedRecording, out: Path) -> list[str]:
             offset, residual = found.clock_offset_s * 1e3, found.residual_m * 1e3
             lines.append(f"{sensor.sensor}: clock offset {offset:.0f} ms, joints {residual:.0f} mm apart (median)")
     warnings = [f"Warning: {warning}" for sensor in fused.sensors for warning in sensor.warnings]
-    return [*lines, *warnings, _speed(fused.timings)]
+    return [*lines, *_beside_cameras(fused.others), *warnings, _speed(fused.timings)]
+
+
+def _beside_cameras(others: OtherSensors) -> list[str]:
+    used = [f"joined with {', '.join(others.used)}"] if others.used else []
+    return [*used, *(f"{name}: not used. {why}" for name, why in others.unusable.items())]
 
 
 def _speed(timings: Timings) -> str:

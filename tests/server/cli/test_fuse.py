@@ -1,9 +1,10 @@
-"""`mirrorlimb fuse` on real recordings: three files as the contract has them, sentences for what cannot be used."""
+"""`mirrorlimb fuse`: three files, and sentences for what cannot be used; most of it on real recordings."""
 
 from __future__ import annotations
 
 import csv
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,6 +12,9 @@ import typer
 from typer.testing import CliRunner
 
 from fusion.errors import InputError
+from fusion.recording.writer import write_recording
+from fusion.virtual_patient.trial import virtual_recording
+from fusion.virtual_patient.worn import ON_SKIN
 from server.cli.fuse import fuse
 
 
@@ -81,6 +85,15 @@ def test_report_json_says_where_the_sensors_stand(written):
 def test_the_terminal_says_what_was_found(written):
     assert "clock offset" in written[1]
     assert "kinect-1" in written[1]
+
+
+def test_the_terminal_says_what_other_sensors_were_joined_and_why_others_were_not(command, tmp_path):
+    worn = virtual_recording(1, 4.0, worn=ON_SKIN)
+    strange = replace(worn.imu_streams[0], site="left-sock")
+    write_recording(replace(worn, imu_streams=(strange, *worn.imu_streams[1:])), tmp_path / "worn")
+    said = command(tmp_path / "worn", "--out", tmp_path / "out").output
+    assert "joined with upper-arm-right, forearm-right, hand-right" in said
+    assert "left-sock: not used. no bone is known" in said
 
 
 @pytest.mark.recordings
