@@ -19,7 +19,7 @@ from typing import Final
 
 import numpy as np
 
-from fusion.align.facing_loops import heard, turned, usually_named, walked
+from fusion.align.facing_loops import heard, on_average, turned, usually_named, walked
 from fusion.messages import Floats, States
 from fusion.skeleton import INDEX
 
@@ -110,7 +110,7 @@ class Facing:
         named = self.sensors.get(sensor)
         if named is None:
             return 0.0
-        exchanged = min(max(float(self.share @ self.exchanged[named.row]), 1e-9), 1.0 - 1e-9)
+        exchanged = min(max(on_average(self.share, self.exchanged, named.row), 1e-9), 1.0 - 1e-9)
         return log(exchanged / (1.0 - exchanged))
 
     def at(self, t_s: float) -> Facing:

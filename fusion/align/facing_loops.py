@@ -157,5 +157,14 @@ def walked(share: Floats, way: float, sure: float, forward_share: float, looks: 
 
 
 @kernel
+def on_average(share: Floats, exchanged: Floats, row: int) -> float:
+    """P(names exchanged) of one sensor, whatever the direction."""
+    total = 0.0
+    for n in range(len(share)):
+        total += share[n] * exchanged[row, n]
+    return total
+
+
+@kernel
 def _direction(n: int, count: int) -> float:
     return 2.0 * np.pi * n / count - np.pi

@@ -7,6 +7,7 @@ then whose body has the patient's bones, then who has followed longer. A person'
 
 from __future__ import annotations
 
+from collections import defaultdict
 from dataclasses import dataclass
 from typing import Final
 
@@ -51,7 +52,7 @@ class PatientFinder:
     """Follows one person in every sensor."""
 
     def __init__(self) -> None:
-        self._views: dict[str, BodiesInView] = {}
+        self._views: defaultdict[str, BodiesInView] = defaultdict(BodiesInView)
         self._places: dict[str, _Place] = {}
 
     def follow(self, sensor: str, body: str) -> bool:
@@ -60,7 +61,7 @@ class PatientFinder:
         Returns:
             Whether it is another one than before.
         """
-        chosen = self._views.setdefault(sensor, BodiesInView())
+        chosen = self._views[sensor]
         is_another = chosen.followed != body
         for view in self._views.values() if is_another else ():
             view.follow_anew()
@@ -105,7 +106,7 @@ class PatientFinder:
             t_s: its time on the receive clock.
             expected: where the patient should be; asked only where somebody has to be chosen or refused.
         """
-        return self._views.setdefault(sample.sensor, BodiesInView()).judge(sample, t_s, expected)
+        return self._views[sample.sensor].judge(sample, t_s, expected)
 
     def agrees(self, sensor: str, t_s: float, centre_in_room: Floats, expected: WhereExpected) -> bool:
         """Whether a sensor's patient is where every surer sensor sees theirs.

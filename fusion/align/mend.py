@@ -6,7 +6,7 @@ the same shoulders, so the sided joints of the one that comes second, or is less
 
 from __future__ import annotations
 
-from collections import deque
+from collections import defaultdict, deque
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from math import atan2, copysign, cos, pi
@@ -57,7 +57,7 @@ class SideKeeper:
     def __init__(self) -> None:
         self._facing: Facing | None = None
         self._decided: dict[str, _Decided] = {}
-        self._way: dict[str, deque[tuple[float, float, float]]] = {}
+        self._way: defaultdict[str, deque[tuple[float, float, float]]] = defaultdict(deque)
 
     @property
     def facing(self) -> Facing | None:
@@ -95,7 +95,7 @@ class SideKeeper:
 
     def _walked(self, belief: Facing, sample: AlignedSample, for_s: float) -> Facing:
         """Take in where the sensor has seen the person go, for the time since anybody saw them."""
-        way = self._way.setdefault(sample.sensor, deque())
+        way = self._way[sample.sensor]
         if not sample.state[PELVIS] or (way and sample.t_s <= way[-1][0]):
             return belief
         x, _, z = sample.positions_in_room[PELVIS].tolist()
@@ -113,13 +113,13 @@ class SideKeeper:
         before = self._decided.get(sample.sensor)
         kept = copysign(KEPT_NATS, before.odds) if before else 0.0
         others = self._beside(sample)
-        agree = sum(copysign(1.0, cos(line.facing_rad - other.facing_rad)) for other in others.values())
+        agree = sum([copysign(1.0, cos(line.facing_rad - other.facing_rad)) for other in others.values()])
         odds += kept - AGREEMENT_NATS * agree
         facing_rad = line.facing_rad + (pi if odds > 0 else 0.0)
         opposed = {name: other for name, other in others.items() if cos(facing_rad - other.facing_rad) < 0}
-        surer = all(abs(odds) > abs(other.odds) + SURER_NATS for other in opposed.values())
-        if surer:
-            self._decided.update({name: replace(other, used=False) for name, other in opposed.items()})
+        surer = all([abs(odds) > abs(other.odds) + SURER_NATS for other in opposed.values()])
+        for name, other in opposed.items() if surer else ():
+            self._decided[name] = replace(other, used=False)
         return _Decided(sample.t_s, facing_rad, odds, surer)
 
     def _beside(self, sample: AlignedSample) -> dict[str, _Decided]:

@@ -8,6 +8,7 @@ from typing import Final
 
 import numpy as np
 
+from fusion.compiled import kernel
 from fusion.kinematics.angles import HANGING, wrapped
 from fusion.messages import Floats, JointAngles, MirrorTarget
 
@@ -104,11 +105,19 @@ def _velocities(healthy: JointAngles, twist_rad: float, previous: MirrorTarget |
     if previous is None or not previous.valid or not 0.0 < dt_s <= LONGEST_STEP_S:
         return STILL
     share = 1.0 - exp(-dt_s / VELOCITY_TIME_S)
-    swing: Floats = (healthy.direction_in_limb - previous.direction_in_limb) / dt_s
     twist = wrapped(twist_rad - previous.twist_rad) / dt_s
     elbow = (healthy.elbow_flexion_rad - previous.elbow_rad) / dt_s
     return (
-        previous.direction_velocity + share * (swing - previous.direction_velocity),
+        _low_passed(previous.direction_velocity, previous.direction_in_limb, healthy.direction_in_limb, dt_s, share),
         previous.twist_rad_s + share * (twist - previous.twist_rad_s),
         previous.elbow_rad_s + share * (elbow - previous.elbow_rad_s),
     )
+
+
+@kernel
+def _low_passed(velocity: Floats, before: Floats, now: Floats, dt_s: float, share: float) -> Floats:
+    """A velocity (3,) moved by this share towards that of the way from `before` to `now`."""
+    moved = np.empty(3)
+    for k in range(3):
+        moved[k] = velocity[k] + share * ((now[k] - before[k]) / dt_s - velocity[k])
+    return moved

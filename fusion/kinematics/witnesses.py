@@ -14,6 +14,7 @@ The larger one counts. Assumptions and measurements: docs/angles.md.
 
 from __future__ import annotations
 
+from collections import defaultdict
 from dataclasses import dataclass, field
 from math import exp, inf, isnan, nan, pi, sin
 from typing import Final
@@ -87,7 +88,7 @@ class Witnesses:
     def __init__(self) -> None:
         self._told = np.full((TOLD_COUNT, 7), -inf)  # time, upper arm, forearm in the room
         self._at = 0
-        self._words: dict[str, _Word] = {}
+        self._words: defaultdict[str, _Word] = defaultdict(_Word)
         self._worst = [START_RAD] * 3  # as in `PerAngle`
         self._usual = (Lately(MEMORY), Lately(MEMORY), Lately(MEMORY))
         self._misfits = Lately(MEMORY)
@@ -111,7 +112,7 @@ class Witnesses:
         self._fade(frame.t_s)
         self._at = _note(self._told, self._at, frame.t_s, frame.positions_in_room, joints)
         for sample in samples:
-            word = self._words.setdefault(sample.sensor, _Word())
+            word = self._words[sample.sensor]
             if sample.t_s > word.taken_s:
                 word.taken_s = sample.t_s
                 self._judge(sample, word, _seen(sample, frame, joints), (trunk, side))
