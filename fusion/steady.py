@@ -12,7 +12,7 @@ from fusion.estimation.vectors import distance, row
 from fusion.messages import Floats, FusedFrame
 
 SPEED_MAX: Final = 6.0
-"""m/s, what a limb can do [methods §5]; half a metre is caught up within three frames of 30 Hz."""
+"""m/s, what a limb can do; half a metre is caught up within three frames of 30 Hz."""
 
 
 def follow(last: FusedFrame | None, target: FusedFrame) -> FusedFrame:

@@ -1,4 +1,4 @@
-"""Adaptive weighted mean [Yao, methods §7]: sensors count by tracking state and by how the person faces their lens.
+"""Adaptive weighted mean [Yao]: sensors count by tracking state and by how the person faces their lens.
 
 p_i = Σ_k λ_ki w_k p_ki / Σ_k λ_ki w_k, with λ 1 tracked, ½ inferred, 0 lost, and w falling linearly from 1 at 0° and
 180° between the person's facing and the lens to 0 at 90°. Left and right are put right before (`fusion.align.mend`).
@@ -17,7 +17,7 @@ from fusion.skeleton import INDEX, JOINT_COUNT, TrackingState
 
 INFERRED_SHARE: Final = 0.5
 LEAST_WEIGHT: Final = 0.05
-"""Seen from the side by the only sensor that sees a joint, Yao's weight would divide 0 by 0 [methods §7]."""
+"""Seen from the side by the only sensor that sees a joint, Yao's weight would divide 0 by 0."""
 PAIRS: Final = tuple(
     (INDEX[name + "Left"], INDEX[name + "Right"]) for name in ("Shoulder", "Elbow", "Hip", "Knee", "Ankle", "Foot")
 )

@@ -1,4 +1,4 @@
-"""A sensor's error box in range, azimuth and elevation, turned into three strips along the room's axes [methods §5]."""
+"""A sensor's error box in range, azimuth and elevation, turned into three strips along the room's axes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The extended set-membership filter as [Du2016 §2.4] prints it, with the gain mended [methods §5].
+"""The extended set-membership filter as [Du2016 §2.4] prints it, with the gain mended (docs/estimation.md).
 
 Each joint's [p; v] lies in one ellipsoid of six dimensions. The measurement is turned to Cartesian with the remainder
 of its own box; bounding it over the predicted set, as printed, lets the sets explode.

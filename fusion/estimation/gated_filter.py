@@ -17,7 +17,7 @@ from fusion.estimation.vectors import Vector, plus
 
 FRAME_S: Final = 1 / 30
 ACCELERATION_STD: Final = 12.0
-"""m/s² per 30 Hz frame; 12 to 25 serve, 6 lags behind a reaching hand [methods §5]. The calmest that serves."""
+"""m/s² per 30 Hz frame; 12 to 25 serve, 6 lags behind a reaching hand. The calmest that serves."""
 ACCELERATION_DENSITY: Final = ACCELERATION_STD**2 * FRAME_S  # m²/s³
 START_SPEED_STD: Final = 1.0  # m/s
 GATE_SIGMA: Final = 4.0

@@ -1,4 +1,4 @@
-"""The baseline: a constant-velocity Kalman filter per joint with a 4-sigma gate [methods §5]."""
+"""The baseline: a constant-velocity Kalman filter per joint with a 4-sigma gate."""
 
 from __future__ import annotations
 

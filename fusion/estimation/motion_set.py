@@ -19,7 +19,7 @@ from fusion.estimation.ellipse import Ellipse, Normal, cut, outer_sum
 from fusion.estimation.vectors import Vector
 
 ACCELERATION_MAX: Final = 20.0
-"""m/s², what a limb can do [methods §5]."""
+"""m/s², what a limb can do."""
 SPEED_MAX: Final = 6.0
 """m/s, likewise."""
 ENDLESS_M: Final = 1e3

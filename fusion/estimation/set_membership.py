@@ -1,6 +1,6 @@
 """The default: a set that holds each joint whatever sensors and limbs do within their bounds, and a point inside it.
 
-The stable form of [Du2016 §2.4], see [methods §5]. Every believed measurement is a box in range, azimuth and elevation
+The stable form of [Du2016 §2.4]. Every believed measurement is a box in range, azimuth and elevation
 that cuts the set; a bound of ±0.2 m refuses nothing below half a metre, so the point is the mean of a gated filter
 that knows each sensor's bias and takes only what is believed, or what agrees with it. The body that is told keeps the
 lengths of its bones.

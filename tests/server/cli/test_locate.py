@@ -1,4 +1,4 @@
-"""`mirrorlimb locate` on the real ranges: positions as the contract has them, sentences for what cannot be used."""
+"""`mirrorlimb locate` on the real ranges: positions with their bounds, sentences for what cannot be used."""
 
 from __future__ import annotations
 
