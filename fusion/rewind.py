@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from math import isfinite
 
 from fusion.estimation.estimator import Estimator
 from fusion.messages import AlignedSample, FusedFrame, Refusal
@@ -47,7 +48,9 @@ class RewindingEstimator:
         return self._steps[-1].sample.t_s if self._steps else None
 
     def take(self, sample: AlignedSample) -> tuple[Refusal, ...] | None:
-        """Take a sample at its own time; its refused joints, or None where it came too late to be used."""
+        """Take a sample at its own time; its refused joints, or None where it came too late, or of no instant."""
+        if not isfinite(sample.t_s):
+            return None
         if self._steps and sample.t_s < self._steps[-1].sample.t_s - WINDOW_S:
             return None
         place = len(self._steps)

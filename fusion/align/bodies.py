@@ -42,8 +42,6 @@ JUMP_M, JUMP_SPEED_M_S = 0.6, 6.0
 SWIFT_M_S: Final = 3.0
 """No patient's trunk goes so fast: a sensor that loses a body lets it sink through the floor like this."""
 SPEED_OVER_S: Final = 0.07
-SHORTEST_FRAME_S: Final = 0.025
-"""Frames that come closer together were held up on their way; no depth camera takes more than 40 a second."""
 RECENT_FRAMES, PATIENT_FRAMES = 60.0, 600.0
 """Bone lengths of a body are those of the last two seconds; the patient's, of the last twenty."""
 FITS, CANNOT_FIT = 1.5, 2.0

@@ -1,6 +1,6 @@
 """Which way the patient faces, and which sensor has taken left for right: one belief, kept over time.
 
-A Kinect mostly takes a back for a front and then names left and right the wrong way round [Yao; methods §7]; it may
+A Kinect mostly takes a back for a front and then names left and right the wrong way round [Yao]; it may
 also keep the names right for a while. So a shoulder line says the facing ψ only up to half a turn, and the sensor's own
 word does not help. What does: a person turns slowly, a sensor that exchanged its names did so in one frame and goes on
 with it, all sensors see one person, and people who walk briskly walk forwards.

@@ -7,8 +7,9 @@ from typing import Final
 import numpy as np
 
 from fusion.compiled import Record, Records, kernel, record
-from fusion.estimation.measurement import Flags, Measurement
+from fusion.estimation.measurement import Measurement
 from fusion.estimation.vectors import distance, row
+from fusion.messages import Flags
 from fusion.skeleton import BONE_INDICES, INDEX
 
 LEARN_FRAMES: Final = 30

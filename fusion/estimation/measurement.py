@@ -5,14 +5,12 @@ from __future__ import annotations
 from typing import Final, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fusion.compiled import kernel
 from fusion.estimation.vectors import Vector, put, row
-from fusion.messages import AlignedSample, Floats, States
+from fusion.messages import AlignedSample, Flags, Floats, States
 from fusion.skeleton import TrackingState
 
-Flags = NDArray[np.bool_]
 FARTHEST_M: Final = 1e3
 """No sensor sees so far, and no sum over what is nearer overflows."""
 TRACKED, LOST = TrackingState.TRACKED, TrackingState.LOST

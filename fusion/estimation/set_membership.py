@@ -24,9 +24,9 @@ from fusion.estimation.evidence import Evidence, weigh
 from fusion.estimation.freshness import CONTINUE_S, LOST_AFTER_S, counts, state_of
 from fusion.estimation.gated_filter import GATE_SIGMA
 from fusion.estimation.known import Known, acquainted, copied, nothing
-from fusion.estimation.measurement import Flags, Heard, Measurement, Sight, read, sight
+from fusion.estimation.measurement import Heard, Measurement, Sight, read, sight
 from fusion.estimation.vectors import Vector, length, plus, row
-from fusion.messages import AlignedSample, Floats, FusedFrame, Refusal, States
+from fusion.messages import AlignedSample, Flags, Floats, FusedFrame, Refusal, States
 from fusion.skeleton import JOINT_COUNT
 
 REASONS: Final = (

@@ -20,7 +20,7 @@ HIP_LEFT, HIP_RIGHT = INDEX["HipLeft"], INDEX["HipRight"]
 
 
 def trunk_frame(positions_in_room: Floats) -> TrunkFrame | None:
-    """The trunk frame of methods §1: x to the patient's right, y up the spine, z from chest to back.
+    """The trunk frame [Du2016 §1.2]: x to the patient's right, y up the spine, z from chest to back.
 
     y is the spine; x is the shoulder line freed of its part along y; z = x × y, so that facing = y × (right − left).
     One missing shoulder is rebuilt from the other through SpineShoulder; with both gone the hips give the line.

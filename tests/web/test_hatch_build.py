@@ -80,5 +80,5 @@ def test_lock_file_carries_no_download_addresses(lock: dict[str, dict[str, objec
 
 def test_lock_file_knows_every_platform(lock: dict[str, dict[str, object]]) -> None:
     known = {name.rpartition("node_modules/")[2] for name in lock}
-    wanted = {name for entry in lock.values() for name in dict(entry.get("optionalDependencies", {}))}  # type: ignore[call-overload]
+    wanted = {name for entry in lock.values() for name in dict(entry.get("optionalDependencies", {}))}  # type: ignore[call-overload]  # JSON
     assert wanted - known == set()

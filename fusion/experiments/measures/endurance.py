@@ -9,9 +9,8 @@ from typing import Final
 import numpy as np
 
 from fusion.estimation import METHODS
-from fusion.estimation.measurement import Flags
 from fusion.experiments.measures.carried_sets import carried
-from fusion.messages import AlignedSample, Floats, FusedFrame
+from fusion.messages import AlignedSample, Flags, Floats, FusedFrame
 from fusion.skeleton import TrackingState
 
 ASKED_EVERY: Final = 10
