@@ -16,7 +16,7 @@ from rich.console import Console
 from rich.progress import Progress, TaskID
 from rich.table import Table
 
-from fusion.errors import InputError, MachineError
+from fusion.errors import InputError
 from fusion.estimation import METHODS
 from fusion.evaluation.angle_scores import AngleScore
 from fusion.evaluation.markdown import ANGLE_HEADINGS, ANGLE_LEGEND, HEADINGS, angle_cells, cells, page, title
@@ -24,6 +24,7 @@ from fusion.evaluation.runs import Evaluation, Way, evaluate_recording, pooled, 
 from fusion.evaluation.scores import Score
 from fusion.recording.reader import Recording, read_recording
 from server.cli.orientation_scores import orientation_table, orientations_as_json, score_orientation
+from server.cli.text_file import write_text
 
 TABLE_WIDTH = 100
 """Figures are not cut off where the terminal is narrower, or none."""
@@ -57,7 +58,7 @@ def evaluate(
         for score in turned:
             console.print(orientation_table(score))
     if markdown is not None:
-        _write(markdown, page(evaluations, _command(recordings, markdown)))
+        write_text(markdown, page(evaluations, _command(recordings, markdown)))
 
 
 def _told_apart(words: Sequence[Path], after_method: bool) -> tuple[list[Path], list[str]]:
@@ -177,12 +178,3 @@ def _without_nan(value: Any) -> Any:
 
 def _way(way: Way) -> dict[str, Any]:
     return {"name": way.name, "method": way.method, "causal": way.causal, "only_sensor": way.only_sensor}
-
-
-def _write(file: Path, text: str) -> None:
-    try:
-        file.write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise MachineError(
-            f"cannot write {file}: {error.strerror}", "a file in a folder that exists", "name another"
-        ) from error

@@ -21,6 +21,7 @@ from fusion.experiments.registry import chosen
 from fusion.experiments.shelf import Shelf
 from server import __version__
 from server.cli.loopback import Loopback
+from server.cli.text_file import write_text
 
 TABLE_WIDTH = 120
 VERDICTS = {True: "met", False: "missed", None: ""}
@@ -115,7 +116,7 @@ def _made(picked: tuple[Experiment, ...], setup: Setup, out: Path) -> list[Made]
 def _write(finished: list[Made], origin: Origin, out: Path, markdown: Path | None) -> None:
     page = write_page(finished, origin, out)
     if markdown is not None:
-        _write_text(markdown, as_markdown(finished, origin))
+        write_text(markdown, as_markdown(finished, origin))
     _summary(finished)
     console = Console(stderr=True, highlight=False, soft_wrap=True)
     for each in finished:
@@ -132,12 +133,3 @@ def _summary(finished: list[Made]) -> None:
         for row in each.outcome.beside:
             table.add_row(each.experiment.name, row.what, row.paper, row.ours, VERDICTS[row.met])
     Console(width=max(Console().width, TABLE_WIDTH)).print(table)
-
-
-def _write_text(file: Path, text: str) -> None:
-    try:
-        file.write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise MachineError(
-            f"cannot write {file}: {error.strerror}", "a file in a folder that exists", "name another"
-        ) from error

@@ -64,7 +64,7 @@ def _table(off: dict[str, Floats]) -> Table:
 
 def _draw(figure: Figure, lap: Lap) -> None:
     names, colours = ("radio alone", "the paper's rule", "ours"), (SECOND, OTHER, FUSED)
-    panels = figure.subplots(1, 3, sharey=True)
+    panels = figure.subplots(1, 3, sharex=True, sharey=True)
     for axes, name, course, colour in zip(panels, names, _courses(lap), colours, strict=True):
         axes.plot(100 * lap.truth[:, 0], 100 * lap.truth[:, 1], color=TRUTH, lw=2.2, alpha=0.5, label="true path")
         axes.plot(100 * course[:, 0], 100 * course[:, 1], color=colour, lw=1, label=name)
@@ -94,7 +94,7 @@ EXPERIMENT = Experiment(
     "Somebody walks once around the square: radio alone strays from the path, the join keeps very near to it (Fig. 6); "
     "no figure is given.",
     "Ten simulated walks at 0.6 m/s; the bearer's own body, behind the tag, blocks anchors. Radio alone by least "
-    "squares, the paper's join as docs/ranging.md restates it, and the filter of `mirrorlimb locate`.",
+    "squares, the paper's join as docs/ranging.md restates it, and the filter of mirrorlimb locate.",
     run,
     order=2,
 )

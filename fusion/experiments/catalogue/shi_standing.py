@@ -119,7 +119,7 @@ EXPERIMENT = Experiment(
     "110–150 cm, with it x over 125–135 and y over 125–140 cm.",
     "Ten simulated laps of 20 s; the walker blocks each of three anchors in turn and lengthens its range. Least "
     "squares on the ranges alone, the paper's join with the acceleration as docs/ranging.md restates it, and the "
-    "filter of `mirrorlimb locate` with the same evidence.",
+    "filter of mirrorlimb locate with the same evidence.",
     run,
     order=1,
 )
