@@ -19,6 +19,8 @@ RATE_OVER_S = 2.0
 SILENT_AFTER_S = 0.5
 OTHERS_CLEARLY_WORSE = 1.3
 """With several people in view, the body that is followed must fit the reference's this much better than any other."""
+ONE_FRAME_S = 0.012
+"""Bodies of one frame come within this, one datagram after the other, and count as one; a frame closes after it."""
 RECENT_MENDS = 60
 OFTEN = 0.5
 
@@ -64,7 +66,7 @@ class SensorWatch:
         else:
             t_s = self.clock.on_receive_clock(sample.t_s, sample.t_received_s)
             self._remember(sample, t_s)
-        if not self._times or t_s > self._times[-1]:
+        if not self._times or t_s > self._times[-1] + ONE_FRAME_S:
             self._times.append(t_s)
         return t_s
 

@@ -163,6 +163,14 @@ def test_a_bystander_is_not_fused_until_a_person_chooses_them(bodies):
     assert pipeline.refusals()["left"]["another person: seen beside the patient"] > 100
 
 
+def test_two_bodies_of_one_frame_are_one_frame(bodies):
+    times = np.arange(0.0, 3.0, 1 / 30)
+    one, other = (bodies.samples("left", bodies.track(times), body=body) for body in "12")
+    later = [(s.t_s + 0.005, replace(s, t_s=s.t_s + 0.005)) for s in other]
+    last = live(Pipeline(settings()), [*((s.t_s, s) for s in one), *later], 3.0)[-1]
+    assert quality(last, "left").frames_per_s == pytest.approx(30.0, abs=1.0)
+
+
 def test_a_sender_with_a_clock_of_its_own_needs_no_help(bodies, room):
     own = [(t, replace(s, t_s=s.t_s + 5000.0) if s.sensor == "right" else s) for t, s in room(7.0)]
     last = live(Pipeline(settings()), own, 7.0)[-1]
