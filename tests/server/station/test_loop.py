@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from time import monotonic
+from time import monotonic, sleep
 
 import numpy as np
 import pytest
@@ -50,10 +50,11 @@ def engaged() -> HandCranked:
 
 
 def tick_until(rig: HandCranked, done: Callable[[], bool]) -> None:
-    """Turn the crank until something is done; the recorder works by the real clock, however fast the crank turns."""
+    """Turn the crank until something is done, no faster than life: the recorder's thread needs its turns."""
     ends_s = monotonic() + PATIENCE_S
     while not done() and monotonic() < ends_s:
         rig.tick()
+        sleep(DT_S)
 
 
 @pytest.fixture(scope="module")
