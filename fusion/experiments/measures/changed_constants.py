@@ -87,8 +87,7 @@ def told_with(changes: Sequence[Change], watched: Sequence[Watched]) -> tuple[To
             np.savez(folder / ASKED.format(k), **asdict(each))
         said = json.dumps([asdict(change) for change in changes])
         command = (sys.executable, "-m", __name__, name, said)
-        # Ourselves, with numbers that we made.
-        subprocess.run(command, check=True, env=os.environ | {"NUMBA_CACHE_DIR": name})  # noqa: S603
+        subprocess.run(command, check=True, env=os.environ | {"NUMBA_CACHE_DIR": name})  # noqa: S603 - ourselves
         return tuple(Told(**_arrays(folder / ANSWER.format(k))) for k in range(len(watched)))
 
 
