@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
-import re
-import tomllib
 from math import isfinite
 from pathlib import Path
-from typing import Annotated, Any, TypeVar
+from typing import Annotated, Any
 
 import msgspec
 from msgspec import Meta
 
 from fusion.errors import InputError
-from server.messages import EXO_JOINTS, JointLimits
+from server.exoskeleton import BUILT_IN, Exoskeleton, device_limits
+from server.exoskeleton_file import check, read_exoskeleton
+from server.messages import JointLimits
+from server.typed_file import read_content, typed
+
+SEE = "docs/station.md"
 
 Port = Annotated[int, Meta(ge=0, le=65535)]
 Seconds = Annotated[float, Meta(gt=0)]
@@ -68,29 +71,24 @@ class GateConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_field
     """Time in which acceleration may go from none to its limit (SR-2)."""
 
 
-def _device_limits() -> tuple[JointLimits, ...]:
-    ranges = ((-0.7, 2.3), (-0.1, 2.6), (-1.6, 1.6), (-0.1, 2.6))
-    return tuple(
-        JointLimits(joint=joint, min_rad=low, max_rad=high, velocity_rad_s=2.0, acceleration_rad_s2=10.0)
-        for joint, (low, high) in zip(EXO_JOINTS, ranges, strict=True)
-    )
-
-
 class StationConfig(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """What the real-time process needs to know."""
 
     rate_hz: Annotated[int, Meta(ge=20, le=1000)] = 100
     """Ticks a second."""
-    drive: str = "simulated"
-    """Drive family, a name of `server.station.exo.drives`."""
+    exoskeleton: Exoskeleton = BUILT_IN
+    """The device. In a configuration file the key holds the path of an exoskeleton file, seen from that file."""
     method: str = "set-membership"
     """How the sensors are fused."""
     reference: str | None = None
     """Sensor whose frame is the room; None = the first that is seen."""
     sensors: SensorsConfig = SensorsConfig()
     gate: GateConfig = GateConfig()
-    device: tuple[JointLimits, ...] = msgspec.field(default_factory=_device_limits)
-    """What the exoskeleton itself may do; a patient's limits lie inside (SR-1)."""
+
+    @property
+    def device(self) -> tuple[JointLimits, ...]:
+        """What the exoskeleton itself may do; a patient's limits lie inside (SR-1)."""
+        return device_limits(self.exoskeleton)
 
 
 class Config(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -118,9 +116,6 @@ class StationStart(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
     station: StationConfig = StationConfig()
 
 
-Form = TypeVar("Form", Config, StationStart)
-
-
 def default_data_folder(demo: bool) -> Path:
     """The folder for data where none is named; the demonstration has one of its own."""
     return Path.home() / ".local" / "share" / ("mirrorlimb-demo" if demo else "mirrorlimb")
@@ -130,10 +125,17 @@ def read_config(path: Path) -> Config:
     """Read a configuration file (TOML).
 
     Raises:
-        InputError: the file cannot be read, or a key or value in it cannot be used; names file and key.
+        InputError: the file, or the exoskeleton file that it names, cannot be read, or a key or value in it cannot be
+            used; names file and key.
     """
-    config = _read(path, Config)
-    _check_station(config.station, path)
+    content = read_content(path, "configuration", SEE)
+    exoskeleton = _named_exoskeleton(content, path)
+    config = typed(content, Config, path)
+    if exoskeleton is not None:
+        config = msgspec.structs.replace(
+            config, station=msgspec.structs.replace(config.station, exoskeleton=exoskeleton)
+        )
+    _check_gate(config.station.gate, path)
     return config
 
 
@@ -143,8 +145,9 @@ def read_start(path: Path) -> StationStart:
     Raises:
         InputError: the file cannot be read, or a key or value in it cannot be used; names file and key.
     """
-    start = _read(path, StationStart)
-    _check_station(start.station, path)
+    start = typed(read_content(path, "start file", SEE), StationStart, path)
+    check(start.station.exoskeleton, path)
+    _check_gate(start.station.gate, path)
     return start
 
 
@@ -154,64 +157,22 @@ def write_start(start: StationStart, path: Path) -> None:
     path.write_bytes(msgspec.json.encode(start))
 
 
-def _read(path: Path, form: type[Form]) -> Form:
-    try:
-        text = path.read_text("utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        why = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
-        raise InputError(f"The configuration '{path}' cannot be read: {why}", "a TOML file", "check --config") from None
-    try:
-        content = msgspec.json.decode(text) if path.suffix == ".json" else tomllib.loads(text)
-        return msgspec.convert(content, form)
-    except msgspec.ValidationError as error:
-        raise _bad_value(path, str(error), form) from None
-    except (tomllib.TOMLDecodeError, msgspec.DecodeError) as error:
-        raise InputError(f"'{path}' is not well-formed: {error}", "TOML, as in docs/station.md") from None
+def _named_exoskeleton(content: dict[str, Any], path: Path) -> Exoskeleton | None:
+    """Take `station.exoskeleton`, the path of a file beside this one, out of the content and read that file."""
+    station = content.get("station")
+    if not isinstance(station, dict) or "exoskeleton" not in station:
+        return None
+    named = station.pop("exoskeleton")
+    if not isinstance(named, str):
+        raise InputError(f"'{path}': the value of 'station.exoskeleton' cannot be used", "the path of a file, as text")
+    return read_exoskeleton(path.parent / named)
 
 
-def _bad_value(path: Path, message: str, form: type[Form]) -> InputError:
-    """Turn "Expected `int`, got `str` - at `$.station.rate_hz`" into a sentence that names file and key."""
-    expected, _, place = message.partition(" - at ")
-    inside = place.strip("`").removeprefix("$").lstrip(".")
-    unknown = re.match(r"Object contains unknown field `(.+)`", expected)
-    if unknown:
-        known = ", ".join(field.name for field in msgspec.structs.fields(_form_at(form, inside)))
-        key = f"{inside}.{unknown[1]}".lstrip(".")
-        return InputError(f"'{path}': there is no key '{key}'", f"one of {known}")
-    return InputError(
-        f"'{path}': the value of '{inside or 'the file'}' cannot be used", expected.removeprefix("Expected ")
-    )
-
-
-def _form_at(form: type[Any], inside: str) -> type[Any]:
-    for name in filter(None, re.sub(r"\[.*?\]", "", inside).split(".")):
-        inner = next(field.type for field in msgspec.structs.fields(form) if field.name == name)
-        form = JointLimits if inner == tuple[JointLimits, ...] else inner
-    return form
-
-
-def _check_station(station: StationConfig, path: Path) -> None:
-    _check_device(station.device, path)
-    numbers = msgspec.structs.asdict(station.gate)
+def _check_gate(gate: GateConfig, path: Path) -> None:
+    numbers = {key: value for key, value in msgspec.structs.asdict(gate).items() if isinstance(value, float | int)}
     endless = [key for key, value in numbers.items() if not isfinite(value)]
     if endless:
         raise InputError(f"'{path}': station.gate.{endless[0]} is not finite", "a number")
     for slow, hold in (("slow_from_rad", "hold_from_rad"), ("slow_from_s", "stale_s")):
         if numbers[slow] >= numbers[hold]:
             raise InputError(f"'{path}': station.gate.{slow} is not below {hold}", "slower first, then held")
-
-
-def _check_device(device: tuple[JointLimits, ...], path: Path) -> None:
-    joints = tuple(limits.joint for limits in device)
-    if joints != EXO_JOINTS:
-        raise InputError(
-            f"'{path}': station.device names the joints {', '.join(joints) or '(none)'}",
-            f"each of {', '.join(EXO_JOINTS)}, once, in this order",
-        )
-    for limits in device:
-        numbers = (limits.min_rad, limits.max_rad, limits.velocity_rad_s, limits.acceleration_rad_s2)
-        if not all(map(isfinite, numbers)) or limits.min_rad >= limits.max_rad or min(numbers[2:]) <= 0:
-            raise InputError(
-                f"'{path}': station.device: the limits of '{limits.joint}' leave no movement",
-                "min_rad below max_rad, velocity_rad_s and acceleration_rad_s2 above 0",
-            )

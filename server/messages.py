@@ -42,6 +42,21 @@ class JointLimits(msgspec.Struct, frozen=True, kw_only=True):
     max_rad: float
     velocity_rad_s: float
     acceleration_rad_s2: float
+    torque_nm: float = 15.0
+    """The most that the drive may use beyond carrying the arm (SR-2)."""
+    resistance_nm: float = 6.0
+    """Where the arm resists with more, the drive holds softly at once (SR-18)."""
+
+
+class Assistance(StrEnum):
+    """How much of the movement is the drive's."""
+
+    PASSIVE = "passive"
+    """The drive moves the arm as the healthy one moves."""
+    ASSISTED = "assisted"
+    """The patient moves; the drive helps as much as is needed, and less where the patient needs less."""
+    FREE = "free"
+    """The drive carries the arm's weight, keeps it inside its limits, and only measures."""
 
 
 # ---------------------------------------------------------------- wishes: service → station
@@ -66,6 +81,9 @@ class OpenSession(Wish, frozen=True, kw_only=True, tag="open"):
     """Account that set the limits (SR-10)."""
     recording: str
     """File to record to."""
+    assistance: Assistance = Assistance.PASSIVE
+    level: float = 1.0
+    """0..1: the most help that `Assistance.ASSISTED` may give."""
 
 
 class CloseSession(Wish, frozen=True, kw_only=True, tag="close"):
@@ -96,6 +114,20 @@ class Reset(Wish, frozen=True, kw_only=True, tag="reset"):
     """stopped or fault → ready (or off). A separate `Enable` is still needed."""
 
 
+class Pain(Wish, frozen=True, kw_only=True, tag="pain"):
+    """It hurts: engaged or hold → hold, softly, and only a person resumes (SR-18). Travels beside `Stop`."""
+
+    reason: str
+
+
+class SetAssistance(Wish, frozen=True, kw_only=True, tag="assist"):
+    """Another way of helping, or more or less help, from now on."""
+
+    mode: Assistance
+    level: float
+    """0..1: the most help that `Assistance.ASSISTED` may give."""
+
+
 class FollowBody(Wish, frozen=True, kw_only=True, tag="follow"):
     """A person says which body of a sensor is the patient."""
 
@@ -108,9 +140,13 @@ class Heartbeat(Wish, frozen=True, kw_only=True, tag="heartbeat"):
 
     ticks_missed: int = 0
     """Ticks that the service never saw because a newer one replaced them (`Timing.ticks_dropped`)."""
+    authority: str = ""
+    """The account that is in charge and connected; "" = nobody, and an engaged arm holds (SR-11)."""
 
 
-AnyWish = OpenSession | CloseSession | Enable | Hold | Resume | Stop | Reset | FollowBody | Heartbeat
+AnyWish = (
+    OpenSession | CloseSession | Enable | Hold | Resume | Stop | Pain | Reset | SetAssistance | FollowBody | Heartbeat
+)
 
 
 class DemoGoal(msgspec.Struct, frozen=True, kw_only=True):
@@ -258,6 +294,15 @@ class ExoView(msgspec.Struct, frozen=True, kw_only=True):
     blend: float
     """0..1 of the blend-in after engage or resume; SR-6."""
     fault: str
+    interaction_nm: tuple[float, ...] = ()
+    """What the arm adds to its expected weight; + pushes towards larger angles. Older recordings have none."""
+    share: tuple[float, ...] = ()
+    """0..1 per joint: how much of the drive's stiffness helps now."""
+    assistance: Assistance = Assistance.PASSIVE
+    level: float = 1.0
+    """0..1: the most help that `Assistance.ASSISTED` may give."""
+    compliant: bool = False
+    """It holds softly: resistance, pain, or a joint whose stop category says so."""
 
 
 class Timing(msgspec.Struct, frozen=True, kw_only=True):
@@ -288,6 +333,8 @@ class LiveTick(msgspec.Struct, frozen=True, kw_only=True):
     blockers: tuple[str, ...]
     """What still keeps `Enable` from being accepted, in plain words."""
     session: str
+    authority: str = ""
+    """The account that is in charge and connected; "" = nobody."""
     healthy_side: Side
     sensors: tuple[SensorView, ...]
     people: tuple[PersonView, ...] = ()

@@ -74,7 +74,7 @@ async def running_service(
         await link.open()
         recovery = asyncio.create_task(measure_all(therapy, left), name="recovery")
         stack.callback(recovery.cancel)
-        demo = Demo(database, auth, config.demo and config.station.drive == SIMULATED)
+        demo = Demo(database, auth, config.demo and config.station.exoskeleton.drive == SIMULATED)
         yield Service(config, database, auth, demo, link, therapy, latency, relay, view3d)
 
 
@@ -85,8 +85,8 @@ def describe_station(service: Service) -> Station:
     return Station(
         up=link.up is not None,
         ports={} if link.up is None else link.up.ports,
-        drive=service.config.station.drive,
-        simulated=service.config.station.drive == SIMULATED,
+        drive=service.config.station.exoskeleton.drive,
+        simulated=service.config.station.exoskeleton.drive == SIMULATED,
         state=DriveState.OFF if tick is None else tick.state,
         reason=link.trouble if tick is None else tick.reason,
         restarts=link.restarts,

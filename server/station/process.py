@@ -58,7 +58,7 @@ def run(start: StationStart) -> None:
         # Until a session says whose arm is healthy; the demonstration's patient has a healthy right one.
         side = Side.RIGHT if start.demo else Side.LEFT
         perception = Perception(PipelineSettings(side, config.method, config.reference))
-        drive = stack.enter_context(make_drive(config))
+        drive = stack.enter_context(make_drive(config.exoskeleton))
         pacemaker.settle()
         # No sooner: 0.14 s of garbage collection at this priority held up another station's loop for 0.11 s. And no
         # later: the threads of the channels and the recorder need it too.

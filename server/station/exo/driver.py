@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
+from math import inf
 from types import TracebackType
 from typing import Protocol, Self
 
@@ -16,13 +17,15 @@ WATCHDOG_S = 0.1
 Joints = tuple[float, ...]
 """One number per joint of `EXO_JOINTS`."""
 ZERO: Joints = (0.0,) * JOINT_COUNT
+ONE: Joints = (1.0,) * JOINT_COUNT
+UNBOUND: Joints = (inf,) * JOINT_COUNT
 
 
 class DriveMode(StrEnum):
     """What the drive is to do with a command."""
 
     HOLD = "hold"
-    """Stay at `angle_rad`, powered: never fall under gravity (SR-7)."""
+    """Stay at `angle_rad`, powered: never fall under gravity (SR-7); with a `share` below 1, softly."""
     FOLLOW = "follow"
     """Follow `angle_rad`, moving at `velocity_rad_s`."""
 
@@ -38,6 +41,11 @@ class DriveCommand:
     """Why the drive holds, in plain words; "" when it follows freely."""
     clamped: tuple[str, ...] = ()
     """What the limits changed."""
+    share: Joints = ONE
+    """0..1 of the drive's stiffness per joint: 1 = position control; below, an impedance about `angle_rad`; 0 = only
+    the arm's weight is carried."""
+    torque_nm: Joints = UNBOUND
+    """The most that each joint may use beyond carrying the arm."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,12 +58,16 @@ class DriveReading:
     torque_nm: Joints
     fault: str = ""
     """What is wrong with the drive, in plain words."""
+    interaction_nm: Joints = ZERO
+    """What the arm adds to the weight and inertia that were expected of it; + pushes towards larger angles."""
 
 
 class Drive(Protocol):
     """A drive family: a context manager that opens and closes the device; nothing in it may block."""
 
     name: str
+    can_comply: bool
+    """Whether it obeys `DriveCommand.share` below 1."""
 
     def __enter__(self) -> Self:
         """Open the device.

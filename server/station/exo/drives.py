@@ -6,20 +6,24 @@ from importlib import import_module
 from typing import cast
 
 from fusion.errors import InputError
-from server.config import StationConfig
+from server.exoskeleton import Exoskeleton
 from server.station.exo.driver import Drive
 
 DRIVES = {"simulated": ("server.station.exo.simulated", "SimulatedDrive")}
-"""Name to module and class; the class is made from the device's limits."""
+"""Name to module and class; the class is made from an `Exoskeleton`."""
 
 
-def make_drive(config: StationConfig) -> Drive:
-    """The drive that the configuration names, not yet open.
+def make_drive(exoskeleton: Exoskeleton) -> Drive:
+    """The drive that an exoskeleton names, not yet open.
 
     Raises:
         InputError: no drive has that name.
     """
-    if config.drive not in DRIVES:
-        raise InputError(f"station.drive: there is no drive '{config.drive}'", f"one of {', '.join(DRIVES)}")
-    module, name = DRIVES[config.drive]
-    return cast(Drive, getattr(import_module(module), name)(config.device))
+    if exoskeleton.drive not in DRIVES:
+        raise InputError(
+            f"the exoskeleton '{exoskeleton.name}': there is no drive '{exoskeleton.drive}'",
+            f"one of {', '.join(DRIVES)}",
+            "mend 'drive' in the exoskeleton file",
+        )
+    module, name = DRIVES[exoskeleton.drive]
+    return cast(Drive, getattr(import_module(module), name)(exoskeleton))

@@ -8,13 +8,12 @@ from math import inf
 from server.config import GateConfig
 from server.messages import EXO_JOINTS, DriveState, Wish
 from server.station.exo import evidence, gate
-from server.station.exo.driver import ZERO, DriveCommand, DriveMode, DriveReading, Joints
+from server.station.exo.driver import ONE, ZERO, DriveCommand, DriveMode, DriveReading, Joints
 from server.station.exo.evidence import SafetyInputs
 from server.station.exo.gate import Facts, GateState
 from server.station.exo.limiter import Box, Motion, to_rest, towards
 from server.station.exo.mapping import JointTarget
 
-ONE: Joints = (1.0,) * len(EXO_JOINTS)
 SHORTEST_STEP_S = 1e-4
 MOVED_BY_HAND_RAD = 0.05
 TOO_SOON = "The exoskeleton's state has only just changed; ask again."

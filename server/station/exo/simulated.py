@@ -7,6 +7,7 @@ from math import tanh
 from types import TracebackType
 from typing import Self
 
+from server.exoskeleton import Exoskeleton, device_limits
 from server.messages import JointLimits
 from server.station.exo.arm_load import ArmLoad
 from server.station.exo.driver import WATCHDOG_S, ZERO, DriveCommand, DriveMode, DriveReading, Joints
@@ -49,14 +50,15 @@ class SimulatedDrive:
     """A drive of equal standing with a real one: it is commanded, measured and watched in the same way.
 
     Args:
-        device: the device's own range; its ends are mechanical stops.
+        exoskeleton: the ends of its joints are mechanical stops.
         load: the arm it carries.
     """
 
     name = "simulated"
+    can_comply = False
 
-    def __init__(self, device: tuple[JointLimits, ...], load: ArmLoad | None = None) -> None:
-        self._stops = tuple((limits.min_rad, limits.max_rad) for limits in device)
+    def __init__(self, exoskeleton: Exoskeleton, load: ArmLoad | None = None) -> None:
+        self._stops = tuple((limits.min_rad, limits.max_rad) for limits in device_limits(exoskeleton))
         self._load = load or ArmLoad()
         self._angle, self._velocity, self._torque = AT_REST, ZERO, ZERO
         self._command = DriveCommand(DriveMode.HOLD, AT_REST, ZERO, "not commanded yet")

@@ -80,7 +80,7 @@ class HandCranked:
     def __init__(self, demonstration: Demonstration | None = None, addresses: tuple[str, str] = ("s1", "s2")) -> None:
         self.config = StationConfig()
         self.source, self.mailbox = ScriptedSource(), ScriptedMailbox()
-        self.drive = SimulatedDrive(self.config.device)
+        self.drive = SimulatedDrive(self.config.exoskeleton)
         self.now_s = 100.0
         self.loop = Loop(
             self.config,

@@ -9,6 +9,7 @@ import pytest
 
 from fusion.errors import InputError
 from server.config import Config, StationStart, read_config, read_start, write_start
+from server.exoskeleton import BUILT_IN
 from server.messages import EXO_JOINTS
 
 
@@ -35,7 +36,7 @@ def test_nested_values_are_read(tmp_path: Path) -> None:
     [
         ("prot = 1", ["'prot'", "port"]),
         ("[station.sensors]\nbnd = '127.0.0.1'", ["'station.sensors.bnd'", "allowed_senders"]),
-        ("[[station.device]]\njiont = 'plane'", ["station.device"]),
+        ("[station]\ndrive = 'simulated'", ["'station.drive'", "exoskeleton"]),
         ("[station]\nrate_hz = 'fast'", ["'station.rate_hz'", "int"]),
         ("[station.gate]\nblend_s = 0.5", ["'station.gate.blend_s'", ">= 2"]),
         ("[station.gate]\nhold_from_rad = 0.3", ["station.gate.slow_from_rad", "hold_from_rad"]),
@@ -43,7 +44,7 @@ def test_nested_values_are_read(tmp_path: Path) -> None:
         ("[station.gate]\nheartbeat_s = inf", ["station.gate.heartbeat_s", "not finite"]),
         ("[station.gate]\nengage_within_rad = nan", ["station.gate.engage_within_rad"]),
         ("port = 70000", ["'port'", "65535"]),
-        ("[station]\ndevice = []", ["station.device", "plane, elevation, rotation, elbow"]),
+        ("[station]\nexoskeleton = 7", ["station.exoskeleton", "path"]),
         ("port = ", ["not well-formed", "TOML"]),
     ],
 )
@@ -60,25 +61,21 @@ def test_a_missing_file_is_named(tmp_path: Path) -> None:
         read_config(tmp_path / "nowhere.toml")
 
 
-@pytest.mark.parametrize("key", ["min_rad", "max_rad", "velocity_rad_s", "acceleration_rad_s2"])
-@pytest.mark.parametrize("value", ["nan", "inf"])
-def test_sr1_a_device_without_an_end_is_refused(tmp_path: Path, key: str, value: str) -> None:
-    tables = [msgspec.structs.asdict(limits) for limits in Config().station.device]
-    tables[2][key] = value
-    rows = [
-        "[[station.device]]\n" + "\n".join(f"{k} = {v if v == value else repr(v)}" for k, v in t.items())
-        for t in tables
-    ]
-    with pytest.raises(InputError, match="rotation"):
-        read_config(_file(tmp_path, "\n".join(rows)))
+def test_an_exoskeleton_file_is_read_beside_the_configuration(tmp_path: Path) -> None:
+    named = msgspec.structs.replace(BUILT_IN, name="mine")
+    (tmp_path / "mine.json").write_bytes(msgspec.json.encode(named))
+    config = read_config(_file(tmp_path, "[station]\nexoskeleton = 'mine.json'"))
+    assert config.station.exoskeleton == named
 
 
 def test_limits_without_room_are_refused(tmp_path: Path) -> None:
-    limits = msgspec.structs.replace(Config().station.device[0], max_rad=-1.0)
-    station = msgspec.structs.replace(Config().station, device=(limits, *Config().station.device[1:]))
+    narrow = msgspec.structs.replace(BUILT_IN.joints[0], max_rad=-1.0)
+    station = msgspec.structs.replace(
+        Config().station, exoskeleton=msgspec.structs.replace(BUILT_IN, joints=(narrow, *BUILT_IN.joints[1:]))
+    )
     path = tmp_path / "start.json"
     write_start(StationStart(data="d", channels="c", station=station), path)
-    with pytest.raises(InputError, match="'plane' leave no movement"):
+    with pytest.raises(InputError, match="'shoulder plane'"):
         read_start(path)
 
 

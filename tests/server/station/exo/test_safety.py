@@ -46,7 +46,7 @@ class Rig:
     """The gate in closed loop with the simulated drive, a tick at a time."""
 
     state: SafetyState = field(default_factory=lambda: SafetyState(gate=GateState(DriveState.READY, "", 0.0, True)))
-    drive: SimulatedDrive = field(default_factory=lambda: SimulatedDrive(STATION.device))
+    drive: SimulatedDrive = field(default_factory=lambda: SimulatedDrive(STATION.exoskeleton))
     t_s: float = 0.0
     command: DriveCommand = field(default_factory=lambda: DriveCommand(DriveMode.HOLD, AT_REST, ZERO, ""))
     reading: DriveReading = field(default_factory=lambda: DriveReading(0.0, AT_REST, ZERO, ZERO))

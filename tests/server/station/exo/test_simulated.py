@@ -11,15 +11,16 @@ from station_samples import patient_limits
 
 from fusion.kinematics.angles import direction_from_swing, forearm_from_twist
 from server.config import StationConfig
+from server.exoskeleton import device_limits
 from server.station.exo.arm_load import GRAVITY_M_S2, ArmLoad
 from server.station.exo.driver import ZERO, DriveCommand, DriveMode
 from server.station.exo.simulated import AT_REST, PLANTS, RAMP_RAD_S2, SimulatedDrive
 
-DEVICE = StationConfig().device
+EXOSKELETON = StationConfig().exoskeleton
 
 
 def _drive() -> SimulatedDrive:
-    drive = SimulatedDrive(DEVICE)
+    drive = SimulatedDrive(EXOSKELETON)
     drive.read(0.0)
     return drive
 
@@ -85,7 +86,7 @@ def test_the_devices_stops_are_hard() -> None:
     for tick in range(300):
         drive.command(DriveCommand(DriveMode.FOLLOW, (9.0,) * 4, ZERO, ""), tick * 0.01)
         measured = drive.read(tick * 0.01 + 0.005).angle_rad
-        assert all(low.min_rad <= a <= low.max_rad for a, low in zip(measured, DEVICE, strict=True))
+        assert all(low.min_rad <= a <= low.max_rad for a, low in zip(measured, device_limits(EXOSKELETON), strict=True))
 
 
 def test_sr3_when_commands_cease_the_drive_comes_to_rest_by_itself_and_stays() -> None:
