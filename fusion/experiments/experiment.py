@@ -24,6 +24,7 @@ class Chapter(IntEnum):
     LIU = 3
     SHI = 4
     OURS = 5
+    SAFETY = 6
 
 
 CHAPTER_TITLES = {
@@ -32,6 +33,7 @@ CHAPTER_TITLES = {
     Chapter.LIU: "Liu and others 2017: the inertial arm",
     Chapter.SHI: "Shi and Zhang: radio ranges and acceleration",
     Chapter.OURS: "Beyond the papers",
+    Chapter.SAFETY: "The exoskeleton and its safety",
 }
 
 
@@ -75,7 +77,7 @@ class Setup:
 
 @dataclass(frozen=True, slots=True)
 class Experiment:
-    """One experiment: a value in a file of its own in `catalogue`."""
+    """One experiment: a value in a file of its own in a catalogue."""
 
     name: str
     """What the command line calls it."""

@@ -18,10 +18,12 @@ from fusion.experiments.output.files import write_one, write_page
 from fusion.experiments.output.made import Made, Origin
 from fusion.experiments.output.markdown import markdown as as_markdown
 from fusion.experiments.registry import chosen
+from fusion.experiments.registry import experiments as known
 from fusion.experiments.shelf import Shelf
 from server import __version__
 from server.cli.loopback import Loopback
 from server.cli.text_file import write_text
+from server.experiments import catalogue
 
 TABLE_WIDTH = 120
 VERDICTS = {True: "met", False: "missed", None: ""}
@@ -48,7 +50,7 @@ def experiments(
 
     Writes every figure as PNG and SVG, every table as CSV, and one page that holds them all.
     """
-    picked = chosen(names or ())
+    picked = chosen(known(catalogue), names or ())
     if show_list:
         _list(picked)
         return

@@ -40,11 +40,11 @@ def test_every_experiment_says_what_was_done_and_what_the_paper_has():
 
 def test_an_unknown_name_is_refused_with_the_known_ones():
     with pytest.raises(InputError, match="du-table-1"):
-        chosen(["du-table-3"])
+        chosen(experiments(), ["du-table-3"])
 
 
 def test_named_experiments_come_in_the_order_of_the_page():
-    assert [each.name for each in chosen(["shi-square", "du-table-1"])] == ["du-table-1", "shi-square"]
+    assert [each.name for each in chosen(experiments(), ["shi-square", "du-table-1"])] == ["du-table-1", "shi-square"]
 
 
 def test_recordings_that_nobody_gave_are_asked_for_by_their_option():

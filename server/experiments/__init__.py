@@ -1,0 +1,1 @@
+"""Experiments that need the station: the exoskeleton, its safety gate, its drives and its processes."""

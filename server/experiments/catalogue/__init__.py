@@ -1,0 +1,1 @@
+"""Every file here is one experiment; `fusion.experiments.registry` finds them by looking."""
