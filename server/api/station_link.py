@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import logging
+import os
 import shutil
 from collections.abc import Callable, Coroutine
 from itertools import count
@@ -75,7 +76,11 @@ class StationLink:
         self._folder = private_folder()
         self._channels = ServiceChannels(self._folder)
         start = StationStart(
-            data=str(self._data), channels=str(self._folder), demo=self._config.demo, station=self._config.station
+            data=str(self._data),
+            channels=str(self._folder),
+            service=os.getpid(),
+            demo=self._config.demo,
+            station=self._config.station,
         )
         start_file = self._folder / "start.json"
         write_start(start, start_file)
@@ -159,7 +164,7 @@ class StationLink:
     async def _beat(self) -> None:
         channels = self._open_channels()
         while True:
-            channels.send(Heartbeat(number=0, ticks_missed=channels.ticks_missed))
+            channels.send(Heartbeat(number=0, ticks_missed=channels.ticks_missed, authority="service"))
             await asyncio.sleep(HEARTBEAT_S)
 
     async def _read_ticks(self) -> None:

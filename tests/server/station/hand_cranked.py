@@ -117,7 +117,7 @@ class HandCranked:
             if sample is not None and self.seeing[k]:
                 self.send(self.addresses[k], sample)
         if self.beating:
-            self.mailbox.wanted.append(Heartbeat(number=0))
+            self.mailbox.wanted.append(Heartbeat(number=0, authority="test"))
         self.ticks.append(self.loop.step(self.now_s))
         return self.last
 

@@ -126,7 +126,7 @@ class LiveStation:
     async def _beat(self) -> None:
         while True:
             if self.beats:
-                self.channels.send(Heartbeat(number=0, ticks_missed=self.channels.ticks_missed))
+                self.channels.send(Heartbeat(number=0, ticks_missed=self.channels.ticks_missed, authority="test"))
             await asyncio.sleep(0.05)
 
     async def _listen(self) -> None:
