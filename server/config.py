@@ -112,6 +112,9 @@ class StationStart(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
     """Data folder; one station per folder."""
     channels: str
     """Private folder of the channels (`server.channels.private_folder`)."""
+    service: int = 0
+    """Process number of the service; 0 = whoever starts the station. One that died before the station was up is
+    noticed by it."""
     demo: bool = False
     station: StationConfig = StationConfig()
 

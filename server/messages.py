@@ -198,6 +198,8 @@ class StationUp(StationEvent, frozen=True, kw_only=True, tag="up"):
     ports: dict[str, int]
     """Dialect (or "any") to UDP port."""
     drive: str
+    real_time: bool = False
+    """Whether the system granted real-time priority; without it, other programs make the loop late."""
 
 
 class SessionClosed(StationEvent, frozen=True, kw_only=True, tag="closed"):

@@ -31,6 +31,7 @@ from server.station.exo.evidence import SafetyInputs
 from server.station.exo.mapping import joint_target
 from server.station.exo.safety import SafetyState
 from server.station.exo.smoothing import Calm, calmed
+from server.station.overruns import Overruns
 from server.station.perception import Heard, Perception
 from server.station.sources.source import Source
 from server.station.view import Build
@@ -76,17 +77,22 @@ class Loop:
         self._trunk_at_enable: Floats | None = None
         self._ticks_missed = 0
         self._last_tick_s = 0.0
-        self._overruns = 0
+        self._overruns = Overruns()
+        self._service_gone = False
 
     # ---------------------------------------------------------------- for who owns the clock
 
-    def announce(self, now_s: float) -> None:
-        """Tell the service that the station listens, and where."""
-        self._tell(StationUp(t_s=now_s, ports=self._source.ports, drive=self._drive.name))
+    def announce(self, now_s: float, real_time: bool = False) -> None:
+        """Tell the service that the station listens, where, and whether it has real-time priority."""
+        self._tell(StationUp(t_s=now_s, ports=self._source.ports, drive=self._drive.name, real_time=real_time))
 
-    def count_overruns(self, slots: int) -> None:
+    def count_overruns(self, slots: int, now_s: float) -> None:
         """Ticks that could not begin in time; a counted fault (SR-9)."""
-        self._overruns += slots
+        self._overruns = self._overruns.counted(slots, now_s)
+
+    def lose_service(self) -> None:
+        """The service has gone: hold in the very next tick, whatever heartbeats still wait to be read (SR-8)."""
+        self._service_gone = True
 
     def leave(self, now_s: float) -> None:
         """Begin to end: the arm comes to rest and the recording is finished in the ticks that follow."""
@@ -155,6 +161,7 @@ class Loop:
             target=target,
             evidence_age_s=float("inf") if isnan(newest_s) else now_s - newest_s,
             service_age_s=now_s - self._heartbeat_s,
+            interrupted=self._interrupted(now_s),
             limits=open_session.limits if open_session else (),
             boxes=open_session.boxes if open_session else (),
             blockers=session.lacks(open_session, self._frame),
@@ -162,6 +169,11 @@ class Loop:
         after, command = safety.step(self._state, inputs, self._config.gate, now_s)
         self._change(after, now_s)
         return command
+
+    def _interrupted(self, now_s: float) -> str:
+        if self._service_gone:
+            return "The service has gone; nobody could be heard."
+        return self._overruns.fault(self._config.rate_hz, now_s)
 
     def _change(self, after: SafetyState, now_s: float) -> None:
         before, self._state = self._state.gate, after
@@ -212,7 +224,7 @@ class Loop:
         return Timing(
             datagram_to_command_s=given_s - newest_s if newest_s in arrivals else None,
             tick_s=self._last_tick_s,
-            overruns=self._overruns,
+            overruns=self._overruns.in_all,
             datagrams=counts.datagrams,
             datagrams_refused=counts.refused_in_all + self._source.losses.in_all,
             ticks_dropped=self._ticks_missed,
@@ -248,7 +260,7 @@ class Loop:
         refused = dict(self._perception.decoder.counts().refused)
         garbage = sum(refused.values()) - refused.get(Reason.REPEATED, 0)
         return (
-            Trouble("overrun", self._overruns, "The control loop was late {more} times."),
+            Trouble("overrun", self._overruns.in_all, "The control loop was late {more} times."),
             Trouble("garbage", garbage, "{more} messages from sensors could not be read."),
             Trouble("oversized", losses.oversized, "{more} datagrams were longer than a sensor's ever are."),
             Trouble("stranger", losses.strangers, "{more} datagrams came from senders that are not allowed."),

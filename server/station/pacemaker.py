@@ -41,30 +41,32 @@ def settle() -> None:
 
 def keep_time(
     step: Callable[[float], object],
-    missed: Callable[[int], None],
+    missed: Callable[[int, float], None],
     rate_hz: int,
     goes_on: Callable[[], bool],
 ) -> None:
-    """Call `step(now)` at every multiple of the period while `goes_on()`.
+    """Call `step(now)` at every multiple of the period while `goes_on()`, which is asked directly before it.
 
     A late tick is not made up for: the schedule stays, and the slots that passed are counted (SR-9).
 
     Args:
         step: one tick.
-        missed: told how many slots passed.
+        missed: told how many slots passed, and when.
         rate_hz: ticks a second.
-        goes_on: asked before each tick.
+        goes_on: what it learns (the service has gone) holds in the very tick that follows.
     """
     period_s = 1.0 / rate_hz
     due_s = time.monotonic()
-    while goes_on():
+    while True:
         early_s = due_s - time.monotonic()
         if early_s > 0:
             time.sleep(early_s)
+        if not goes_on():
+            return
         now_s = time.monotonic()
         slots = int((now_s - due_s) / period_s)
         if slots:
-            missed(slots)
+            missed(slots, now_s)
             due_s += slots * period_s
         step(now_s)
         due_s += period_s

@@ -11,7 +11,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
@@ -48,7 +48,7 @@ def run(start: StationStart) -> None:
     Raises:
         MirrorlimbError: a port, folder, method or drive cannot be used, or another station has the data folder.
     """
-    data = Path(start.data)
+    data, service = Path(start.data), start.service or os.getppid()
     with ExitStack() as stack:
         stack.enter_context(only_one(data))
         stack.enter_context(logging_to(data / "logs" / "realtime.log"))
@@ -62,25 +62,31 @@ def run(start: StationStart) -> None:
         pacemaker.settle()
         # No sooner: 0.14 s of garbage collection at this priority held up another station's loop for 0.11 s. And no
         # later: the threads of the channels and the recorder need it too.
-        log.info("real-time priority %s", "granted" if pacemaker.ask_for_priority() else "not granted")
+        real_time = pacemaker.ask_for_priority()
+        log.info("real-time priority %s", "granted" if real_time else "not granted")
         channels = StationChannels(Path(start.channels))
         stack.callback(channels.close)
         demonstration = Demonstration() if start.demo else None
         loop = Loop(config, source, perception, drive, channels, demonstration)
-        vigil = Vigil()
+        vigil = Vigil(service, loop.lose_service)
         if start.demo:
             vigil.sensors = DemonstrationSensors(start, source.ports)
             stack.callback(vigil.sensors.close)
-        loop.announce(time.monotonic())
+        loop.announce(time.monotonic(), real_time)
         pacemaker.keep_time(loop.step, loop.count_overruns, config.rate_hz, vigil.goes_on)
         _leave(loop, config.rate_hz)
 
 
 class Vigil:
-    """Watches whether the loop should go on: no signal to end, and the service that started it still there."""
+    """Watches whether the loop should go on: no signal to end, and the service that started it still there.
 
-    def __init__(self) -> None:
-        self._parent = os.getppid()
+    Args:
+        service: process number of the service, our parent.
+        on_gone: told once, before the next tick begins, that it has gone.
+    """
+
+    def __init__(self, service: int, on_gone: Callable[[], None]) -> None:
+        self._service, self._on_gone = service, on_gone
         self._gone_s: float | None = None
         self._told_to_end = False
         self.sensors: DemonstrationSensors | None = None
@@ -88,15 +94,16 @@ class Vigil:
             signal.signal(number, self._end)
 
     def goes_on(self) -> bool:
-        """Asked before each tick."""
+        """Asked directly before each tick: a service that died is noticed within one period."""
         if self._told_to_end:
             return False
         if self.sensors is not None:
             self.sensors.look_after()
-        if os.getppid() == self._parent:
+        if os.getppid() == self._service:
             return True
         if self._gone_s is None:
             self._gone_s = time.monotonic()
+            self._on_gone()
             log.error("the service has gone; the arm is held")
         return time.monotonic() - self._gone_s < ORPHAN_S
 

@@ -41,8 +41,10 @@ class Recorder:
         self.trouble = ""
         """Why the disk refused, in words."""
         self._writer = LogWriter(path, about)
-        self._queue: queue.Queue[_Entry | None] = queue.Queue(entries_kept)
-        self._closing = threading.Event()
+        self._entries_kept = entries_kept
+        self._queue: queue.SimpleQueue[_Entry | None] = queue.SimpleQueue()
+        """None is the end mark: behind it comes nothing."""
+        self._ended = False
         self._thread = threading.Thread(target=self._work, name="recorder", daemon=True)
         self._thread.start()
 
@@ -63,8 +65,13 @@ class Recorder:
         self._put(lambda writer: writer.event(event, t_s))
 
     def finish(self) -> None:
-        """Write what waits and close the file, in the recorder's own time; `finished` says when."""
-        self._closing.set()
+        """Write what waits and close the file, in the recorder's own time; `finished` says when.
+
+        What comes afterwards is not part of the recording, and is not lost either.
+        """
+        if not self._ended:
+            self._ended = True
+            self._queue.put(None)
 
     @property
     def finished(self) -> bool:
@@ -77,27 +84,30 @@ class Recorder:
         self._thread.join(CLOSE_WITHIN_S)
 
     def _put(self, entry: _Entry) -> None:
-        try:
-            self._queue.put_nowait(entry)
-        except queue.Full:
+        if self._ended:
+            return
+        if self._queue.qsize() < self._entries_kept:
+            self._queue.put(entry)
+        else:
             self.dropped += 1
 
     def _work(self) -> None:
         flush_s = time.monotonic() + FLUSH_S
-        while not (self._closing.is_set() and self._queue.empty()):
-            entry = self._next()
-            if entry is not None:
-                self._attempt(entry)
-            if time.monotonic() >= flush_s:
-                self._attempt(LogWriter.flush, lost=0)
+        while (entry := self._next(flush_s)) is not None:
+            if entry is LogWriter.flush:
+                self._attempt(entry, lost=0)
                 flush_s = time.monotonic() + FLUSH_S
+            else:
+                self._attempt(entry)
         self._attempt(LogWriter.close, lost=0)
 
-    def _next(self) -> _Entry | None:
+    def _next(self, flush_s: float) -> _Entry | None:
+        """What is to be done next: a flush when one is due, nothing more after the end mark."""
+        left_s = flush_s - time.monotonic()
         try:
-            return self._queue.get(timeout=0.05)
+            return self._queue.get(timeout=left_s) if left_s > 0 else LogWriter.flush
         except queue.Empty:
-            return None
+            return LogWriter.flush
 
     def _attempt(self, entry: _Entry, lost: int = 1) -> None:
         """A full disk costs the recording, never the session."""

@@ -30,6 +30,8 @@ class SafetyInputs:
     limits: tuple[JointLimits, ...] = ()
     """The patient's, inside the device's; () = no session."""
     boxes: tuple[Box, ...] = ()
+    interrupted: str = ""
+    """Why the station itself must hold (the service has gone, too many ticks were late), in plain words."""
     blockers: tuple[str, ...] = ()
     """What the session lacks (SR-10)."""
 

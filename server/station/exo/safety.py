@@ -117,6 +117,8 @@ def _judged(
 
 
 def _silence(inputs: SafetyInputs, elapsed_s: float, config: GateConfig) -> str:
+    if inputs.interrupted:
+        return inputs.interrupted
     if inputs.service_age_s > config.heartbeat_s:
         return "The service is silent; nobody could be heard."
     return f"The control loop stood still for {elapsed_s:.2f} s." if elapsed_s > config.stale_s else ""

@@ -10,6 +10,7 @@ import pytest
 from fusion.errors import MachineError
 from fusion.messages import Packet
 from fusion.recording.log import LogAbout, LogWriter
+from fusion.recording.log_reader import LogReader
 from server.station.recorder import Recorder
 
 
@@ -49,6 +50,17 @@ def test_sr8_a_full_disk_is_told_in_words_and_counted(tmp_path: Path, monkeypatc
     assert recorder.dropped == 10
     assert "r.mcap" in recorder.trouble
     assert "No space left" in recorder.trouble
+
+
+def test_what_comes_after_the_end_is_neither_written_nor_waited_for(tmp_path: Path) -> None:
+    recorder = Recorder(tmp_path / "r.mcap", LogAbout("r"))
+    recorder.packet(_packet(0))
+    recorder.finish()
+    while not recorder.finished:
+        recorder.packet(_packet(1))  # a loop that goes on meanwhile
+    recorder.finish()
+    assert recorder.dropped == 0
+    assert sum(1 for _ in LogReader(tmp_path / "r.mcap").packets()) == 1
 
 
 def test_a_file_that_is_there_already_is_never_overwritten(tmp_path: Path) -> None:
