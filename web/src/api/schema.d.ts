@@ -550,6 +550,12 @@ export interface components {
             valid: boolean;
         };
         /**
+         * Assistance
+         * @description How much of the movement is the drive's.
+         * @enum {unknown}
+         */
+        Assistance: "assisted" | "free" | "passive";
+        /**
          * BodyView
          * @description The fused body.
          */
@@ -719,11 +725,21 @@ export interface components {
          */
         ExoView: {
             angle_rad: number[];
+            /** @default passive */
+            assistance: components["schemas"]["Assistance"];
             blend: number;
             clamped: string[];
             command_rad: number[];
             command_velocity_rad_s: number[];
+            /** @default false */
+            compliant: boolean;
             fault: string;
+            /** @default [] */
+            interaction_nm: number[];
+            /** @default 1 */
+            level: number;
+            /** @default [] */
+            share: number[];
             speed_factor: number;
             torque_nm: number[];
             velocity_rad_s: number[];
@@ -800,6 +816,10 @@ export interface components {
             joint: string;
             max_rad: number;
             min_rad: number;
+            /** @default 6 */
+            resistance_nm: number;
+            /** @default 15 */
+            torque_nm: number;
             velocity_rad_s: number;
         };
         /**
@@ -852,6 +872,8 @@ export interface components {
          */
         LiveTick: {
             affected: components["schemas"]["ArmView"];
+            /** @default  */
+            authority: string;
             blockers: string[];
             body: components["schemas"]["BodyView"] | null;
             exo: components["schemas"]["ExoView"];
