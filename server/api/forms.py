@@ -228,6 +228,8 @@ class Station(BaseModel):
     """How often the station has died and been started again."""
     latency: Latencies
     device: list[LimitsSnapshot]
+    soft_margin_rad: float
+    """Set-points keep this far inside a patient's limits."""
 
     model_config = ConfigDict(
         json_schema_extra={
@@ -254,6 +256,7 @@ class Station(BaseModel):
                             "acceleration_rad_s2": 6.0,
                         }
                     ],
+                    "soft_margin_rad": 0.1,
                 }
             ]
         }

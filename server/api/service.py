@@ -92,4 +92,5 @@ def describe_station(service: Service) -> Station:
         restarts=link.restarts,
         latency=service.latency.read(),
         device=list(snapshots(service.config.station.device)),
+        soft_margin_rad=service.config.station.gate.soft_margin_rad,
     )

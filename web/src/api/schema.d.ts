@@ -1367,6 +1367,7 @@ export interface components {
          *       "reason": "no session is open",
          *       "restarts": 0,
          *       "simulated": true,
+         *       "soft_margin_rad": 0.1,
          *       "state": "off",
          *       "up": true
          *     }
@@ -1387,6 +1388,8 @@ export interface components {
             restarts: number;
             /** Simulated */
             simulated: boolean;
+            /** Soft Margin Rad */
+            soft_margin_rad: number;
             state: components["schemas"]["DriveState"];
             /** Up */
             up: boolean;
