@@ -1,69 +1,73 @@
-"""The simulated exoskeleton: four joints with inertia, gravity, friction, limited torque, and a drive's regulator."""
+"""The simulated exoskeleton: seven geared joints that carry a human arm, and the regulator of a good position drive.
+
+What it is made of and where each number comes from: docs/simulated-arm.md.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from math import tanh
+from math import isfinite
 from types import TracebackType
-from typing import Self
+from typing import Final, Self
 
-from server.exoskeleton import Exoskeleton, device_limits
+from fusion.errors import InputError
+from server.exoskeleton import Exoskeleton
 from server.messages import JointLimits
-from server.station.exo.arm_load import ArmLoad
-from server.station.exo.driver import WATCHDOG_S, ZERO, DriveCommand, DriveMode, DriveReading, Joints
+from server.station.exo.driver import DriveCommand, DriveReading, Joints
+from server.station.exo.joint_map import JointMap
+from server.station.exo.simulated_arm.engine import Belief, Scene
+from server.station.exo.simulated_arm.mechanics import CHAIN, is_such_an_arm
+from server.station.exo.simulated_arm.mjcf import STEP_S
+from server.station.exo.simulated_arm.person import Effort, HumanArm, Muscles, Spasticity
+from server.station.exo.simulated_arm.regulator import Regulator
 
-SUBSTEP_S = 0.002
-RAMP_RAD_S2 = 10.0
-"""Deceleration of the drive's own watchdog."""
-LONGEST_CATCH_UP_S = 0.5
+LONGEST_CATCH_UP_S: Final = 0.5
 """A simulation that was not asked for longer skips ahead; nothing in it moves on its own by then."""
-INTERPOLATED_S = 0.015
-"""The drive carries a set-point on at its velocity for so long, as cyclic position drives interpolate."""
-KNOWN_LOAD = 0.9
-"""Share of the true gravity that the drive's model knows: people are not all alike."""
-AT_REST: Joints = (0.9, 0.4, 0.2, 1.0)
+KNOWN_LOAD: Final = 0.9
+"""Share of the arm's mass that the drive believes in: people are not all alike."""
+AT_REST: Final[Joints] = (0.9, 0.4, 0.2, 1.0)
 """Where a seated patient's arm lies in it."""
-
-
-@dataclass(frozen=True, slots=True)
-class JointPlant:
-    """One joint's mechanics and its regulator."""
-
-    inertia_kg_m2: float
-    viscous_nm_s: float
-    coulomb_nm: float
-    torque_nm: float
-    """Largest torque of the motor."""
-    natural_rad_s: float = 45.0
-    """Of the position loop; the damping ratio is 1."""
-
-
-PLANTS = (
-    JointPlant(0.30, 0.4, 0.4, 40.0),
-    JointPlant(0.45, 0.5, 0.5, 60.0),
-    JointPlant(0.06, 0.1, 0.2, 15.0),
-    JointPlant(0.12, 0.15, 0.2, 20.0),
-)
 
 
 class SimulatedDrive:
     """A drive of equal standing with a real one: it is commanded, measured and watched in the same way.
 
+    It measures what a real one does, at the motors: the gears' play and wind-up and the cuffs' softness stay unseen.
+
     Args:
-        exoskeleton: the ends of its joints are mechanical stops.
-        load: the arm it carries.
+        exoskeleton: the chain of joints of `simulated_arm.mechanics.CHAIN`; their ends are mechanical stops.
+        arm: the arm that is put in.
+        effort: what its muscles do; None = nothing.
+        spasticity: of its elbow; None = it is calm.
+
+    Raises:
+        InputError: the exoskeleton's joints are not those of the simulated arm.
+        MachineError: MuJoCo is not installed.
     """
 
     name = "simulated"
-    can_comply = False
+    can_comply = True
 
-    def __init__(self, exoskeleton: Exoskeleton, load: ArmLoad | None = None) -> None:
-        self._stops = tuple((limits.min_rad, limits.max_rad) for limits in device_limits(exoskeleton))
-        self._load = load or ArmLoad()
-        self._angle, self._velocity, self._torque = AT_REST, ZERO, ZERO
-        self._command = DriveCommand(DriveMode.HOLD, AT_REST, ZERO, "not commanded yet")
-        self._commanded_s: float | None = None
+    def __init__(
+        self,
+        exoskeleton: Exoskeleton,
+        arm: HumanArm | None = None,
+        effort: Effort | None = None,
+        spasticity: Spasticity | None = None,
+    ) -> None:
+        if not is_such_an_arm(exoskeleton):
+            raise InputError(
+                f"the exoskeleton '{exoskeleton.name}' is not the simulated arm",
+                f"joints that follow {', '.join(CHAIN)}, in this order",
+                "mend the joints' 'follows', or name another 'drive'",
+            )
+        arm = arm or HumanArm()
+        self._map = JointMap(exoskeleton)
+        self.scene = Scene(exoskeleton, arm, Muscles(effort, spasticity, STEP_S))
+        """What is really so; a controller must not look, a test or an experiment may."""
+        self._regulator = Regulator(exoskeleton, self._map, Belief(exoskeleton, arm.believed(KNOWN_LOAD)))
         self._now_s: float | None = None
+        self._fault = ""
+        self._put_in(AT_REST)
 
     def __enter__(self) -> Self:
         return self
@@ -71,7 +75,7 @@ class SimulatedDrive:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self._hold(self._angle)
+        self._regulator.hold(self.scene.rotor_rad)
 
     def fit(self, limits: tuple[JointLimits, ...]) -> None:
         """Somebody puts the arm in, at rest as a seated patient's lies, and at least a tenth inside its range."""
@@ -79,64 +83,40 @@ class SimulatedDrive:
         for angle, joint in zip(AT_REST, limits, strict=True):
             inset = 0.1 * (joint.max_rad - joint.min_rad)
             inside.append(min(max(angle, joint.min_rad + inset), joint.max_rad - inset))
-        self._angle, self._velocity = tuple(inside), ZERO
-        self._hold(self._angle)
+        self._put_in(tuple(inside))
 
     def command(self, command: DriveCommand, now_s: float) -> None:
-        """Take over a command."""
+        """Take over a command; one that is not all numbers is a fault, and counts as one that did not come."""
         self._advance(now_s)
-        self._command, self._commanded_s = command, now_s
+        if all(map(isfinite, (*command.angle_rad, *command.velocity_rad_s, *command.share))):
+            self._regulator.take(command, now_s)
+            self._fault = ""
+        else:
+            self._fault = "The drive was given a command that is not a number."
 
     def read(self, now_s: float) -> DriveReading:
-        """Integrate up to now and measure."""
+        """Live on up to now and measure."""
         self._advance(now_s)
-        return DriveReading(now_s, self._angle, self._velocity, self._torque)
+        scene, to = self.scene, self._map
+        return DriveReading(
+            t_s=now_s,
+            angle_rad=to.anatomical_rad(scene.rotor_rad),
+            velocity_rad_s=to.anatomical_rad_s(scene.rotor_rad_s),
+            torque_nm=to.anatomical_nm(scene.motor_nm),
+            fault=self._fault,
+            interaction_nm=to.anatomical_nm(self._regulator.interaction_nm(scene)),
+        )
 
-    def _hold(self, angle: Joints) -> None:
-        self._command = DriveCommand(DriveMode.HOLD, angle, ZERO, "held by the drive")
+    def _put_in(self, angle_rad: Joints) -> None:
+        joints = self._map.joints_rad(angle_rad)
+        self.scene.place(joints, angle_rad)
+        self._regulator.begin(joints)
 
     def _advance(self, now_s: float) -> None:
         start_s = now_s if self._now_s is None else max(self._now_s, now_s - LONGEST_CATCH_UP_S)
-        for step in range(int((now_s - start_s) / SUBSTEP_S + 1e-6)):
-            self._substep(start_s + (step + 1) * SUBSTEP_S)
-            self._now_s = start_s + (step + 1) * SUBSTEP_S
-        if self._now_s is None or self._now_s < now_s - SUBSTEP_S:
+        for step in range(1, int((now_s - start_s) / STEP_S + 1e-6) + 1):
+            self._now_s = start_s + step * STEP_S
+            self.scene.motor_nm[:] = self._regulator.torque_nm(self._now_s, self.scene)
+            self.scene.step(self._now_s)
+        if self._now_s is None or self._now_s < now_s - STEP_S:
             self._now_s = now_s
-
-    def _substep(self, t_s: float) -> None:
-        self._watch(t_s)
-        carried_s = min(t_s - (self._commanded_s or t_s), INTERPOLATED_S)
-        gravity = self._load.gravity_nm(self._angle)
-        moved = [self._joint(i, gravity[i], carried_s) for i in range(len(PLANTS))]
-        self._angle, self._velocity, self._torque = (tuple(part) for part in zip(*moved, strict=True))
-
-    def _joint(self, i: int, gravity_nm: float, carried_s: float) -> tuple[float, float, float]:
-        """One joint's semi-implicit Euler step: J q̈ = τ + gravity − b q̇ − c tanh(q̇ / 0.02)."""
-        plant, angle, velocity = PLANTS[i], self._angle[i], self._velocity[i]
-        wanted_rad_s = self._command.velocity_rad_s[i]
-        error_rad = self._command.angle_rad[i] + wanted_rad_s * carried_s - angle
-        stiffness, damping = plant.inertia_kg_m2 * plant.natural_rad_s**2, 2 * plant.inertia_kg_m2 * plant.natural_rad_s
-        torque = stiffness * error_rad + damping * (wanted_rad_s - velocity) - KNOWN_LOAD * gravity_nm
-        torque = min(max(torque, -plant.torque_nm), plant.torque_nm)
-        friction = plant.viscous_nm_s * velocity + plant.coulomb_nm * tanh(velocity / 0.02)
-        velocity += (torque + gravity_nm - friction) / plant.inertia_kg_m2 * SUBSTEP_S
-        angle += velocity * SUBSTEP_S
-        low, high = self._stops[i]
-        if low <= angle <= high:
-            return angle, velocity, torque
-        return min(max(angle, low), high), 0.0, torque
-
-    def _watch(self, t_s: float) -> None:
-        """The drive's own watchdog (SR-3): without commands the set-point comes to rest at a steady deceleration."""
-        if self._commanded_s is None or t_s - self._commanded_s <= WATCHDOG_S or not any(self._command.velocity_rad_s):
-            return
-        slower = tuple(_towards_zero(v, RAMP_RAD_S2 * SUBSTEP_S) for v in self._command.velocity_rad_s)
-        moved = tuple(
-            angle + v * SUBSTEP_S
-            for angle, v in zip(self._command.angle_rad, self._command.velocity_rad_s, strict=True)
-        )
-        self._command = DriveCommand(DriveMode.HOLD, moved, slower, "the drive's watchdog: no command came")
-
-
-def _towards_zero(value: float, step: float) -> float:
-    return max(0.0, value - step) if value > 0 else min(0.0, value + step)
