@@ -73,8 +73,16 @@ class Cia402Settings(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_f
     bitrate: Annotated[int, Meta(gt=0)] = 1_000_000
     heartbeat_s: Positive = 0.05
     """Both ways: a node that is silent for twice this time has failed, and a drive that hears no PC stops."""
-    homing_method: int = 35
-    """Object 6098h; 35 = the present position is home."""
+    homing_method: Annotated[int, Meta(ge=-128, le=127)] = 35
+    """Object 6098h; 35 = the present position is home, 0 = absolute encoders that need no homing."""
+    options: dict[str, str | int | float | bool] = {}
+    """Further words of the interface, such as host and port of "socketcand"."""
+    period_s: Positive = 0.01
+    """From one set-point to the next (60C2h): one tick of the station."""
+    own_node: Annotated[int, Meta(ge=1, le=127)] = 127
+    """The station's own number on the bus; its heartbeats carry it."""
+    carry_nm: dict[str, float] = {}
+    """Joint to the torque that carries device and heaviest arm in the worst pose. Without one, a joint never yields."""
 
 
 class RosbridgeSettings(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -84,6 +92,10 @@ class RosbridgeSettings(msgspec.Struct, frozen=True, kw_only=True, forbid_unknow
     """Such as "ws://127.0.0.1:9091"."""
     trajectory_topic: str = "/joint_trajectory_controller/joint_trajectory"
     state_topic: str = "/joint_states"
+    lead_s: Annotated[float, Meta(ge=0.01, le=0.1)] = 0.02
+    """Where a trajectory's first point lies; from there it brakes. What is later than this costs smoothness."""
+    following_rad: Annotated[float, Meta(gt=0, le=1)] = 0.35
+    """A joint that is further from where it is told to be, for 0.3 s, has failed."""
 
 
 class Exoskeleton(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):

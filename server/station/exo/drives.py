@@ -9,7 +9,10 @@ from fusion.errors import InputError
 from server.exoskeleton import Exoskeleton
 from server.station.exo.driver import Drive
 
-DRIVES = {"simulated": ("server.station.exo.simulated", "SimulatedDrive")}
+DRIVES = {
+    "simulated": ("server.station.exo.simulated", "SimulatedDrive"),
+    "rosbridge": ("server.station.exo.rosbridge.drive", "RosbridgeDrive"),
+}
 """Name to module and class; the class is made from an `Exoskeleton`."""
 
 

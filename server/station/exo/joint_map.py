@@ -67,6 +67,14 @@ class JointMap:
         joints: Floats = self._back.T @ np.asarray(anatomical_nm)
         return joints
 
+    def ranges_rad(self, ends_rad: tuple[tuple[float, float], ...]) -> Floats:
+        """Where the joints (n, 2) may be while the anatomical angles are inside (4, 2), rad: interval arithmetic."""
+        low, high = np.asarray(ends_rad).T
+        parts = np.stack((self._slope * low, self._slope * high))  # (2, n, 4)
+        ends = np.column_stack((parts.min(axis=0).sum(axis=1), parts.max(axis=0).sum(axis=1)))
+        moved: Floats = ends + self._constant[:, None]
+        return moved
+
     def spread(self, per_angle: Joints, resting: float) -> Floats:
         """A share or a bound per angle (4,) → per joint (n,): each joint takes its leading angle's."""
         return np.array([resting if lead is None else per_angle[lead] for lead in self.leading])

@@ -1,0 +1,1 @@
+"""Exoskeletons behind ROS 2, reached through rosbridge: docs/rosbridge.md."""
