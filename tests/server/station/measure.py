@@ -8,6 +8,7 @@ from __future__ import annotations
 import asyncio
 import shutil
 import sys
+import tempfile
 import time
 from collections import Counter
 from itertools import pairwise, takewhile
@@ -15,12 +16,12 @@ from pathlib import Path
 
 import msgspec
 import numpy as np
-from live_station import LiveStation, temporary_data
 from mcap.reader import make_reader
 
 from fusion.formats.registry import dialect_named
 from fusion.recording.log import TICKS
 from fusion.recording.reader import read_recording
+from server.experiments.rig.live_station import LiveStation
 from server.messages import CloseSession, DriveState, Enable, LiveTick, Resume
 from server.sender import Destination, Sender, departures, send_in_time
 
@@ -51,7 +52,7 @@ async def _keep_going(station: LiveStation) -> None:
 
 
 async def measure(recording: Path, seconds: float) -> None:
-    data = temporary_data()
+    data = Path(tempfile.mkdtemp(prefix="mirrorlimb-data-"))
     path = data / "session.mcap"
     async with LiveStation(data) as station:
         await station.ask(station.session(path))

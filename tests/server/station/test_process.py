@@ -15,13 +15,13 @@ import msgspec
 import numpy as np
 import psutil
 import pytest
-from live_station import PORT, LiveStation
 from mcap.exceptions import McapError
 from mcap.reader import NonSeekingReader
 
 from fusion.recording.log import TICKS
 from fusion.recording.reader import read_recording
 from server.config import SensorsConfig, StationConfig, StationStart, write_start
+from server.experiments.rig.live_station import PORT, LiveStation
 from server.messages import CloseSession, DriveState, Enable, LiveTick, SessionClosed, Stop
 
 HANDS = [(0.35, 0.05, -0.30), (0.15, -0.15, -0.40)]
@@ -139,10 +139,10 @@ async def test_a_broken_start_file_is_named(tmp_path: Path, content: str, named:
 
 async def test_sr8_a_station_whose_service_was_killed_ends_by_itself_and_keeps_the_recording(tmp_path: Path) -> None:
     code = (
-        "import asyncio, sys; sys.path.insert(0, sys.argv[1])\n"
-        "from pathlib import Path\nfrom live_station import LiveStation\n"
+        "import asyncio, sys\nfrom pathlib import Path\n"
+        "from server.experiments.rig.live_station import LiveStation\n"
         "async def main():\n"
-        "    data = Path(sys.argv[2])\n"
+        "    data = Path(sys.argv[1])\n"
         "    async with LiveStation(data) as station:\n"
         "        await station.ask(station.session(data / 'session.mcap'))\n"
         "        print(station.process.pid, flush=True)\n"
@@ -150,7 +150,7 @@ async def test_sr8_a_station_whose_service_was_killed_ends_by_itself_and_keeps_t
         "asyncio.run(main())\n"
     )
     service = await asyncio.create_subprocess_exec(
-        sys.executable, "-c", code, str(Path(__file__).parent), str(tmp_path), stdout=asyncio.subprocess.PIPE
+        sys.executable, "-c", code, str(tmp_path), stdout=asyncio.subprocess.PIPE
     )
     assert service.stdout is not None
     station = int(await asyncio.wait_for(service.stdout.readline(), 40))
