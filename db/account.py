@@ -3,16 +3,32 @@
 from __future__ import annotations
 
 from datetime import datetime
+from enum import StrEnum
 
 from sqlmodel import Field, SQLModel
 
-from db.columns import UtcDateTime, now_utc
+from db.columns import UtcDateTime, now_utc, word_of
+
+
+class Role(StrEnum):
+    """What an account is for."""
+
+    ADMIN = "admin"
+    THERAPIST = "therapist"
+    SCREEN = "screen"
+    """The patient's screen: it looks, and may hold, stop and call pain."""
+
+    @property
+    def may_treat(self) -> bool:
+        """Whether such an account may enrol, sign for limits and be in charge of the arm."""
+        return self is not Role.SCREEN
 
 
 class AccountBase(SQLModel):
     """What every form of an account says."""
 
     name: str = Field(min_length=1, max_length=80, unique=True, index=True)
+    role: Role = Field(default=Role.THERAPIST, sa_type=word_of(Role))
 
 
 class Account(AccountBase, table=True):

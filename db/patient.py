@@ -1,53 +1,20 @@
-"""A patient: who, which side is healthy, and how far the affected arm may be moved."""
+"""A patient: who, which side is healthy, and what the affected arm may do."""
 
 from __future__ import annotations
 
 from datetime import datetime
-from math import pi, radians
-from typing import Literal, Self
+from typing import Literal
 
-from pydantic import BaseModel, ConfigDict, model_validator
 from sqlalchemy import String
 from sqlmodel import Field, SQLModel
 
 from db.columns import Document, UtcDateTime, now_utc
+from db.limits import AssistanceName, ForceLimits, PassiveRange, PatientLimits
 
 SideName = Literal["left", "right"]
 """A side of the patient's body, always the patient's own."""
-
-
-class JointRange(BaseModel):
-    """How far one joint may be moved, in radians."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
-
-    min_rad: float = Field(ge=-pi, le=pi)
-    max_rad: float = Field(ge=-pi, le=pi)
-
-    @model_validator(mode="after")
-    def _is_in_order(self) -> Self:
-        if self.min_rad >= self.max_rad:
-            raise ValueError("the least angle must be smaller than the greatest")
-        return self
-
-
-def _degrees(least: float, greatest: float) -> JointRange:
-    return JointRange(min_rad=radians(least), max_rad=radians(greatest))
-
-
-class PassiveRange(BaseModel):
-    """How far a therapist could move each joint of the affected arm by hand, measured at enrolment (SR-18).
-
-    Plane (0 = sideways, +90° = ahead) and elevation of the upper arm's swing, the humerus' rotation (internal +), elbow
-    flexion. The defaults are cautious: within what a relaxed adult arm allows.
-    """
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
-
-    plane: JointRange = _degrees(-20, 120)
-    elevation: JointRange = _degrees(0, 100)
-    rotation: JointRange = _degrees(-60, 80)
-    elbow: JointRange = _degrees(0, 135)
+SIGNED_FOR = ("healthy_side", *PatientLimits.model_fields)
+"""What a signature covers: where one of these changes, it no longer holds (SR-10)."""
 
 
 class PatientBase(SQLModel):
@@ -57,6 +24,9 @@ class PatientBase(SQLModel):
     healthy_side: SideName = Field(sa_type=String, description="The patient's own left or right.")
     notes: str = Field(default="", max_length=10_000)
     passive_range: PassiveRange = Field(default_factory=PassiveRange, sa_type=Document(PassiveRange))
+    force_limits: ForceLimits = Field(default_factory=ForceLimits, sa_type=Document(ForceLimits))
+    assistance: AssistanceName = Field(default="passive", sa_type=String, description="How a session begins.")
+    assist_level_most: float = Field(default=1.0, ge=0, le=1, description="The most help while assisted, 0 to 1.")
 
 
 class Patient(PatientBase, table=True):
@@ -68,10 +38,22 @@ class Patient(PatientBase, table=True):
     created_by_id: int = Field(foreign_key="account.id", index=True)
     created_at: datetime = Field(default_factory=now_utc, sa_type=UtcDateTime)
     updated_at: datetime = Field(default_factory=now_utc, sa_type=UtcDateTime)
+    limits_set_by: str = Field(default="", max_length=80)
+    """Account that signed for the limits as they are; "" = nobody has (SR-10)."""
+    limits_set_at: datetime | None = Field(default=None, sa_type=UtcDateTime)
+
+    @property
+    def limits(self) -> PatientLimits:
+        """What somebody signs for."""
+        return PatientLimits(
+            passive_range=self.passive_range,
+            force_limits=self.force_limits,
+            assist_level_most=self.assist_level_most,
+        )
 
 
 class PatientCreate(PatientBase):
-    """What a therapist fills in at enrolment."""
+    """What a therapist fills in at enrolment. Nothing may move before somebody has signed for the limits."""
 
     model_config = {
         "extra": "forbid",
@@ -83,6 +65,9 @@ class PatientCreate(PatientBase):
                     "healthy_side": "right",
                     "notes": "tires quickly",
                     "passive_range": PassiveRange().model_dump(),
+                    "force_limits": ForceLimits().model_dump(),
+                    "assistance": "assisted",
+                    "assist_level_most": 0.8,
                 }
             ]
         },
@@ -90,7 +75,7 @@ class PatientCreate(PatientBase):
 
 
 class PatientUpdate(SQLModel):
-    """What a therapist may change later; whatever is left out stays."""
+    """What a therapist may change later; whatever is left out stays. Changed limits want a new signature."""
 
     model_config = {
         "extra": "forbid",
@@ -102,6 +87,9 @@ class PatientUpdate(SQLModel):
     healthy_side: SideName | None = None
     notes: str | None = Field(default=None, max_length=10_000)
     passive_range: PassiveRange | None = None
+    force_limits: ForceLimits | None = None
+    assistance: AssistanceName | None = None
+    assist_level_most: float | None = Field(default=None, ge=0, le=1)
 
 
 class PatientPublic(PatientBase):
@@ -110,3 +98,5 @@ class PatientPublic(PatientBase):
     id: int
     created_at: datetime
     updated_at: datetime
+    limits_set_by: str = Field(description="Account that signed for the limits as they are; empty = nobody has.")
+    limits_set_at: datetime | None

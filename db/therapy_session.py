@@ -11,6 +11,7 @@ from sqlalchemy import JSON, String
 from sqlmodel import Field, SQLModel
 
 from db.columns import Document, UtcDateTime, now_utc, word_of
+from db.limits import AssistanceName
 from db.patient import SideName
 
 
@@ -33,14 +34,19 @@ class LimitsSnapshot(BaseModel):
     max_rad: float
     velocity_rad_s: float
     acceleration_rad_s2: float
+    torque_nm: float | None = None
+    """Null in sessions from before it was limited."""
+    resistance_nm: float | None = None
 
 
 class AllLimits(BaseModel):
-    """The limits of every joint in this session."""
+    """The limits of every joint in this session, and who signed for them."""
 
     model_config = ConfigDict(frozen=True)
 
     joints: tuple[LimitsSnapshot, ...] = ()
+    set_by: str = ""
+    set_at: datetime | None = None
 
 
 class SessionBase(SQLModel):
@@ -51,6 +57,8 @@ class SessionBase(SQLModel):
     game: str = Field(max_length=40)
     seed: int
     level: float = Field(ge=0, le=1, description="Difficulty at the start, 0 to 1.")
+    assistance: AssistanceName = Field(default="passive", sa_type=String, description="How the drive began to help.")
+    assist_level: float = Field(default=1.0, ge=0, le=1, description="The most help while assisted, at the start.")
     started_at: datetime = Field(default_factory=now_utc, sa_type=UtcDateTime)
     ended_at: datetime | None = Field(default=None, sa_type=UtcDateTime)
     status: SessionStatus = Field(default=SessionStatus.OPEN, sa_type=word_of(SessionStatus))

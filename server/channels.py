@@ -3,7 +3,7 @@
 | channel | from → to | kind |
 |---|---|---|
 | `wishes` | service → station | in order; only to a station that is there |
-| `stop` | service → station | the same, for `Stop` alone, so that nothing can stand before it (SR-7) |
+| `stop` | service → station | the same, for `Stop` and `Pain`, so that nothing can stand before them (SR-7) |
 | `ticks` | station → service | newest wins, never blocks (SR-9) |
 | `events` | station → service | bounded, in order, never blocks |
 | `goal` | service → demonstration's sensors | newest wins |
@@ -24,7 +24,7 @@ import zmq
 import zmq.asyncio
 
 from fusion.errors import MachineError
-from server.messages import AnyEvent, AnyWish, DemoGoal, LiveTick, StationEvent, Stop, Wish
+from server.messages import AnyEvent, AnyWish, DemoGoal, LiveTick, Pain, StationEvent, Stop, Wish
 
 EVENTS_KEPT = 10_000
 """Events that wait for a slow service before they are dropped and counted."""
@@ -127,9 +127,9 @@ class StationChannels:
         self.events_dropped = 0
         self.wishes_refused = 0
 
-    def stops(self) -> list[Stop]:
-        """Every stop that has come since; read first in a tick."""
-        return [wish for wish in self._drained(self._stop) if isinstance(wish, Stop)]
+    def stops(self) -> list[Stop | Pain]:
+        """Every stop and every cry of pain that has come since; read first in a tick."""
+        return [wish for wish in self._drained(self._stop) if isinstance(wish, Stop | Pain)]
 
     def wishes(self) -> list[Wish]:
         """Every other wish that has come since, in order."""
@@ -195,7 +195,7 @@ class ServiceChannels:
         """Send a wish; False where no station is there to take it. Never waits, and nothing is kept for later: an
         old "enable" must not reach a station that starts afterwards.
         """
-        return _sent(self._stop if isinstance(wish, Stop) else self._wishes, _encoder.encode(wish))
+        return _sent(self._stop if isinstance(wish, Stop | Pain) else self._wishes, _encoder.encode(wish))
 
     def steer_demonstration(self, goal: DemoGoal) -> None:
         """Say where the virtual patient should reach now; newest wins."""

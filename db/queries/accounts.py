@@ -7,7 +7,7 @@ from datetime import datetime
 from sqlalchemy import delete
 from sqlmodel import Session, col, func, select
 
-from db.account import Account, LoginSession
+from db.account import Account, LoginSession, Role
 
 
 def count_accounts(session: Session) -> int:
@@ -20,9 +20,9 @@ def find_account(session: Session, name: str) -> Account | None:
     return session.exec(select(Account).where(Account.name == name)).first()
 
 
-def add_account(session: Session, name: str, password_hash: str | None) -> Account:
+def add_account(session: Session, name: str, password_hash: str | None, role: Role = Role.THERAPIST) -> Account:
     """A new account; without a hash nobody can log in to it with a password."""
-    account = Account(name=name, password_hash=password_hash)
+    account = Account(name=name, password_hash=password_hash, role=role)
     session.add(account)
     session.flush()
     return account

@@ -5,7 +5,7 @@ from __future__ import annotations
 from sqlmodel import Session, col, select
 
 from db.columns import now_utc
-from db.patient import Patient, PatientCreate, PatientUpdate
+from db.patient import SIGNED_FOR, Patient, PatientCreate, PatientUpdate
 
 
 def list_patients(session: Session) -> list[Patient]:
@@ -27,11 +27,24 @@ def add_patient(session: Session, form: PatientCreate, created_by_id: int) -> Pa
 
 
 def change_patient(session: Session, patient: Patient, form: PatientUpdate) -> Patient:
-    """Change what the form names; the rest stays."""
+    """Change what the form names; the rest stays. A signature for other limits ends."""
     for name in form.model_fields_set:
         value = getattr(form, name)
-        if value is not None:
-            setattr(patient, name, value)
+        if value is None:
+            continue
+        if name in SIGNED_FOR and value != getattr(patient, name):
+            patient.limits_set_by, patient.limits_set_at = "", None
+        setattr(patient, name, value)
+    return _changed(session, patient)
+
+
+def sign_limits(session: Session, patient: Patient, account: str) -> Patient:
+    """Somebody answers for the patient's limits as they are (SR-10)."""
+    patient.limits_set_by, patient.limits_set_at = account, now_utc()
+    return _changed(session, patient)
+
+
+def _changed(session: Session, patient: Patient) -> Patient:
     patient.updated_at = now_utc()
     session.add(patient)
     session.flush()

@@ -14,7 +14,7 @@ from argon2 import PasswordHasher
 from argon2.exceptions import InvalidHashError, VerifyMismatchError
 from fastapi import Request, Response
 
-from db.account import Account, LoginSession
+from db.account import Account, LoginSession, Role
 from db.columns import now_utc
 from db.database import Database
 from db.queries import accounts
@@ -67,7 +67,7 @@ class Auth:
         with self._lock, self._database.session() as session:
             if accounts.count_accounts(session) > 0:
                 raise RefusedError("the first account exists already", "a log-in", "log in with that account")
-            account = accounts.add_account(session, name, self._hasher.hash(password))
+            account = accounts.add_account(session, name, self._hasher.hash(password), Role.ADMIN)
         self._forgive(name, client)
         return account, self.open_login(account)
 

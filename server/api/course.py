@@ -9,7 +9,8 @@ from math import dist
 from fusion.skeleton import Side
 from games.catalogue import open_game
 from games.game import Game, GameInput, GameSettings, GameView, Workspace
-from server.api.live import SessionPhase, SessionView
+from server.api.live import AuthorityView, SessionPhase, SessionView
+from server.api.measured_range import RangeMeter
 from server.messages import DemoGoal, DriveState, JointLimits, LiveTick, Point
 
 _PHASES = {
@@ -33,6 +34,8 @@ class Plan:
     seed: int
     level: float
     limits: tuple[JointLimits, ...]
+    assist_level_most: float
+    """The most help that this patient is allowed, 0..1."""
     soft_margin_rad: float
     """The gate keeps commands so far inside the limits; targets must lie inside too."""
     started: datetime
@@ -50,6 +53,8 @@ class Course:
         self.closed = False
         """The station has let go of the patient; only storing is left."""
         self.picture: GameView | None = None
+        self.meter: RangeMeter | None = None
+        """Measures the patient's own range, once somebody has asked for it."""
         self._state = DriveState.OFF
         self._t_s = plan.t_started_s
         self._game: Game | None = None
@@ -57,6 +62,8 @@ class Course:
     def step(self, tick: LiveTick) -> GameView | None:
         """Take a tick; the game's picture, None until the arm was first engaged."""
         dt_s, self._t_s, self._state = max(0.0, tick.t_s - self._t_s), tick.t_s, tick.state
+        if self.meter is not None:
+            self.meter.take(tick)
         active = tick.state is DriveState.ENGAGED
         if self._game is None and active:
             self._game = _opened(self.plan, tick)
@@ -72,7 +79,7 @@ class Course:
             return SessionPhase.SAVING
         return SessionPhase.INTERRUPTED if self.interrupted else _PHASES[self._state]
 
-    def view(self) -> SessionView:
+    def view(self, authority: AuthorityView | None) -> SessionView:
         """The session in a line."""
         plan = self.plan
         return SessionView(
@@ -83,6 +90,8 @@ class Course:
             started=plan.started,
             elapsed_s=max(0.0, self._t_s - plan.t_started_s),
             phase=self.phase,
+            assist_level_most=plan.assist_level_most,
+            authority=authority,
         )
 
 

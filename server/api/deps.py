@@ -5,12 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated
 
-from fastapi import Depends, Request
+from fastapi import Depends, Header, Request
 from fastapi.security import APIKeyCookie
 from sqlmodel import Session
 
 from db.account import Account
 from server.api.auth import COOKIE, Auth
+from server.api.authority import PAGE_NAME, Client
+from server.api.controls import Controls
+from server.api.errors import ApiError
 from server.api.service import Service
 from server.api.therapy import Therapy
 
@@ -42,9 +45,15 @@ def get_therapy(service: ServiceDep) -> Therapy:
     return service.therapy
 
 
+def get_controls(service: ServiceDep) -> Controls:
+    """What people want of the arm."""
+    return service.controls
+
+
 SessionDep = Annotated[Session, Depends(get_session, scope="function")]
 AuthDep = Annotated[Auth, Depends(get_auth)]
 TherapyDep = Annotated[Therapy, Depends(get_therapy)]
+ControlsDep = Annotated[Controls, Depends(get_controls)]
 TokenDep = Annotated[str | None, Depends(cookie_scheme)]
 
 
@@ -54,3 +63,29 @@ def get_account(auth: AuthDep, token: TokenDep) -> Account:
 
 
 AccountDep = Annotated[Account, Depends(get_account)]
+
+
+def get_therapist(account: AccountDep) -> Account:
+    """Who is logged in; 403 where that is the patient's screen."""
+    if not account.role.may_treat:
+        raise ApiError(403, f"{account.name} may not do this", "a therapist's account", "log in with one")
+    return account
+
+
+TherapistDep = Annotated[Account, Depends(get_therapist)]
+PageName = Annotated[
+    str,
+    Header(
+        alias="Mirrorlimb-Client",
+        pattern=PAGE_NAME,
+        description="What the page calls itself, the same as at its stream's opening.",
+    ),
+]
+
+
+def get_client(account: AccountDep, page: PageName = "") -> Client:
+    """The page that asks."""
+    return Client(account.id or 0, account.name, page)
+
+
+ClientDep = Annotated[Client, Depends(get_client)]

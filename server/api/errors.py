@@ -65,7 +65,7 @@ def answers(*statuses: int) -> dict[int | str, dict[str, Any]]:
 
 _MEANINGS = {
     401: "Nobody is logged in",
-    403: "Not allowed from here",
+    403: "Not allowed from here, or not for this account",
     404: "There is no such thing",
     409: "Refused in the present state; the reason is in the detail",
     422: "The form is filled in wrongly",

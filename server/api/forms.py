@@ -7,9 +7,10 @@ from typing import Annotated, Literal
 from pydantic import BaseModel, ConfigDict, Field, StringConstraints
 
 from db.account import AccountPublic
+from db.limits import AssistanceName, PassiveRange
 from db.patient import PatientPublic, SideName
 from db.therapy_session import LimitsSnapshot
-from server.messages import DriveState
+from server.messages import Assistance, DriveState
 
 Pain = Annotated[int, Field(ge=0, le=10)]
 NAME = "Dr. Lin"
@@ -68,6 +69,10 @@ class SessionOpen(_Form):
     game: str = "reach"
     level: float = Field(default=0.3, ge=0, le=1)
     pain_before: Pain | None = None
+    assistance: AssistanceName | None = None
+    """How the drive helps at first; null = as the patient's page says."""
+    assist_level: float | None = Field(default=None, ge=0, le=1)
+    """The most help while assisted; null = the most that the patient is allowed."""
 
     model_config = ConfigDict(
         extra="forbid",
@@ -93,7 +98,7 @@ class SessionEnd(_Form):
     model_config = ConfigDict(extra="forbid", json_schema_extra={"examples": [{"pain_after": 1}]})
 
 
-Action = Literal["start", "hold", "resume", "stop", "reset"]
+Action = Literal["start", "hold", "resume", "stop", "reset", "pain"]
 
 
 class Control(_Form):
@@ -102,6 +107,47 @@ class Control(_Form):
     action: Action
 
     model_config = ConfigDict(extra="forbid", json_schema_extra={"examples": [{"action": "start"}]})
+
+
+class AssistanceForm(_Form):
+    """How the drive is to help from now on."""
+
+    mode: Assistance
+    level: float = Field(ge=0, le=1)
+    """The most help while assisted."""
+
+    model_config = ConfigDict(extra="forbid", json_schema_extra={"examples": [{"mode": "assisted", "level": 0.5}]})
+
+
+class TakeOver(_Form):
+    """Taking over; while another page is in charge and connected, this must be confirmed."""
+
+    confirmed: bool = False
+
+    model_config = ConfigDict(extra="forbid", json_schema_extra={"examples": [{"confirmed": True}]})
+
+
+class AuthorityPublic(BaseModel):
+    """Who is in charge of the open session."""
+
+    account: str
+    client: str
+    """What the page in charge calls itself."""
+    connected: bool
+
+    model_config = ConfigDict(
+        json_schema_extra={"examples": [{"account": NAME, "client": "3f1c9e", "connected": True}]}
+    )
+
+
+class MeasuredRange(BaseModel):
+    """How far each joint was moved while the drive only carried the arm."""
+
+    ticks: int
+    range: PassiveRange | None
+    """Null until every joint has moved."""
+
+    model_config = ConfigDict(json_schema_extra={"examples": [{"ticks": 0, "range": None}]})
 
 
 class Follow(_Form):
@@ -254,6 +300,8 @@ class Station(BaseModel):
                             "max_rad": 2.4,
                             "velocity_rad_s": 1.5,
                             "acceleration_rad_s2": 6.0,
+                            "torque_nm": 20.0,
+                            "resistance_nm": 20.0,
                         }
                     ],
                     "soft_margin_rad": 0.1,

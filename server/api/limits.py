@@ -1,25 +1,28 @@
-"""What the arm may do in a session: the range measured by hand, inside the device's own (SR-1, SR-18)."""
+"""What the arm may do in a session: the patient's limits, inside the device's own (SR-1, SR-2, SR-18)."""
 
 from __future__ import annotations
 
 import msgspec
 
-from db.patient import JointRange, PassiveRange
+from db.limits import JointForce, JointRange, PatientLimits
 from db.therapy_session import LimitsSnapshot
 from fusion.errors import RefusedError
 from server.messages import JointLimits
 
 
-def session_limits(passive: PassiveRange, device: tuple[JointLimits, ...]) -> tuple[JointLimits, ...]:
-    """The part of the passive range that the device has too, joint by joint; speeds are the device's.
+def session_limits(patient: PatientLimits, device: tuple[JointLimits, ...]) -> tuple[JointLimits, ...]:
+    """The part of the passive range that the device has too, and the lesser torques; speeds are the device's.
 
     Raises:
         RefusedError: nothing is left of a joint's range.
     """
-    return tuple(_narrowed(joint, getattr(passive, joint.joint)) for joint in device)
+    return tuple(
+        _narrowed(joint, getattr(patient.passive_range, joint.joint), getattr(patient.force_limits, joint.joint))
+        for joint in device
+    )
 
 
-def _narrowed(device: JointLimits, passive: JointRange) -> JointLimits:
+def _narrowed(device: JointLimits, passive: JointRange, force: JointForce) -> JointLimits:
     low, high = max(device.min_rad, passive.min_rad), min(device.max_rad, passive.max_rad)
     if low >= high:
         raise RefusedError(
@@ -27,7 +30,13 @@ def _narrowed(device: JointLimits, passive: JointRange) -> JointLimits:
             "ranges that overlap",
             "correct the patient's passive range",
         )
-    return msgspec.structs.replace(device, min_rad=low, max_rad=high)
+    return msgspec.structs.replace(
+        device,
+        min_rad=low,
+        max_rad=high,
+        torque_nm=min(device.torque_nm, force.torque_nm),
+        resistance_nm=min(device.resistance_nm, force.resistance_nm),
+    )
 
 
 def snapshots(limits: tuple[JointLimits, ...]) -> tuple[LimitsSnapshot, ...]:

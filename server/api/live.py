@@ -26,6 +26,16 @@ class SessionPhase(StrEnum):
     SAVING = "saving"
 
 
+class AuthorityView(msgspec.Struct, frozen=True, kw_only=True):
+    """Who is in charge of the open session (SR-11)."""
+
+    account: str
+    client: str
+    """What the page in charge calls itself."""
+    connected: bool
+    """Whether that page is there; while it is not, nobody is in charge and an engaged arm holds."""
+
+
 class SessionView(msgspec.Struct, frozen=True, kw_only=True):
     """The open session in a line."""
 
@@ -36,6 +46,9 @@ class SessionView(msgspec.Struct, frozen=True, kw_only=True):
     started: datetime
     elapsed_s: float
     phase: SessionPhase
+    assist_level_most: float
+    """The most help that this patient is allowed, 0..1."""
+    authority: AuthorityView | None
 
 
 class LiveMessage(msgspec.Struct, frozen=True, kw_only=True):

@@ -50,9 +50,10 @@ async def page(path: str, _: AccountDep, service: ServiceDep) -> Response:
 @router.websocket(VIEW3D + "/{path:path}")
 async def socket(socket: WebSocket, path: str = "") -> None:
     """Viser's socket, both ways, while the log-in lasts."""
-    service = await admit(socket)
-    if service is None:
+    admitted = await admit(socket)
+    if admitted is None:
         return
+    service, _ = admitted
     asked = [Subprotocol(name) for name in socket.scope.get("subprotocols", [])]
     # Without limits of our own: pictures are large, and both ends are ours.
     opening = connect(

@@ -10,6 +10,8 @@ from pathlib import Path
 
 from db.database import Database, open_database
 from server.api.auth import Auth, AuthSettings
+from server.api.authority import Authority, Presence
+from server.api.controls import Controls
 from server.api.data_folder import DATABASE, until_station_is_gone
 from server.api.demo import Demo
 from server.api.forms import Station
@@ -37,7 +39,9 @@ class Service:
     auth: Auth
     demo: Demo
     link: StationLink
+    presence: Presence
     therapy: Therapy
+    controls: Controls
     latency: LatencyMeter
     relay: Relay
     view3d: View3D
@@ -59,7 +63,11 @@ async def running_service(
         auth = Auth(database, auth_settings)
         link = StationLink(config, data, station)
         journal = Journal(database)
-        therapy = Therapy(config, data, database, link, journal)
+        presence = Presence(link.beat)
+        authority = Authority(presence)
+        therapy = Therapy(config, data, database, link, journal, authority)
+        link.in_charge = therapy.in_charge
+        controls = Controls(therapy.opened, link, journal, authority)
         latency = LatencyMeter()
         relay = Relay(therapy, latency)
         view3d = View3D(relay.viewers)
@@ -75,7 +83,7 @@ async def running_service(
         recovery = asyncio.create_task(measure_all(therapy, left), name="recovery")
         stack.callback(recovery.cancel)
         demo = Demo(database, auth, config.demo and config.station.exoskeleton.drive == SIMULATED)
-        yield Service(config, database, auth, demo, link, therapy, latency, relay, view3d)
+        yield Service(config, database, auth, demo, link, presence, therapy, controls, latency, relay, view3d)
 
 
 def describe_station(service: Service) -> Station:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from datetime import datetime
 
-from db.account import Account
 from db.database import Database
 from db.patient import Patient
 from db.queries import patients, sessions
@@ -46,7 +45,12 @@ def existing_session(database: Database, session_id: int) -> TherapySession:
 
 
 def begin(
-    database: Database, form: SessionOpen, account: Account, seed: int, limits: tuple[JointLimits, ...]
+    database: Database,
+    form: SessionOpen,
+    patient: Patient,
+    therapist_id: int,
+    seed: int,
+    limits: tuple[JointLimits, ...],
 ) -> TherapySession:
     """Store a session that begins now, and decide where it is recorded."""
     with database.session() as session:
@@ -54,13 +58,15 @@ def begin(
             session,
             TherapySession(
                 patient_id=form.patient_id,
-                therapist_id=account.id or 0,
+                therapist_id=therapist_id,
                 affected_side=form.confirmed_affected_side,
                 game=form.game,
                 seed=seed,
                 level=form.level,
                 pain_before=form.pain_before,
-                limits=AllLimits(joints=snapshots(limits)),
+                assistance=form.assistance or patient.assistance,
+                assist_level=patient.assist_level_most if form.assist_level is None else form.assist_level,
+                limits=AllLimits(joints=snapshots(limits), set_by=patient.limits_set_by, set_at=patient.limits_set_at),
                 version=__version__,
             ),
         )

@@ -7,6 +7,7 @@ import asyncio
 from fastapi import WebSocket
 from fastapi.concurrency import run_in_threadpool
 
+from db.account import Account
 from server.api.auth import COOKIE
 from server.api.errors import as_response
 from server.api.service import Service
@@ -16,12 +17,12 @@ LOGGED_OUT = 4401
 """Close code: the log-in has run out."""
 
 
-async def admit(socket: WebSocket) -> Service | None:
-    """The service behind the socket; None, and a refusal sent, where nobody is logged in."""
+async def admit(socket: WebSocket) -> tuple[Service, Account] | None:
+    """The service behind the socket, and who asks; None, and a refusal sent, where nobody is logged in."""
     service: Service = socket.app.state.service
-    token = socket.cookies.get(COOKIE)
-    if await run_in_threadpool(service.auth.account_or_none, token) is not None:
-        return service
+    account = await run_in_threadpool(service.auth.account_or_none, socket.cookies.get(COOKIE))
+    if account is not None:
+        return service, account
     await socket.send_denial_response(as_response(401, "nobody is logged in", "a log-in", "log in"))
     return None
 

@@ -56,6 +56,8 @@ class StationLink:
         self.on_tick: list[Callable[[LiveTick], None]] = []
         self.on_event: list[Callable[[AnyEvent], None]] = []
         self.on_death: list[Callable[[str], None]] = []
+        self.in_charge: Callable[[], str] = lambda: ""
+        """The account that is in charge and connected; "" = nobody (SR-11)."""
 
     @property
     def restarts(self) -> int:
@@ -129,6 +131,12 @@ class StationLink:
             raise RefusedError(answered.reason or "the station refused", "", "look at what the arm is waiting for")
         return answered
 
+    def beat(self) -> None:
+        """Tell the station that the service is alive, and who is in charge; also between beats, when that changes."""
+        channels = self._channels
+        if channels is not None:
+            channels.send(Heartbeat(number=0, ticks_missed=channels.ticks_missed, authority=self.in_charge()))
+
     def steer_demonstration(self, goal: DemoGoal) -> None:
         """Say where the virtual patient should reach."""
         if self._channels is not None:
@@ -162,9 +170,8 @@ class StationLink:
         _tell(self.on_death, words)
 
     async def _beat(self) -> None:
-        channels = self._open_channels()
         while True:
-            channels.send(Heartbeat(number=0, ticks_missed=channels.ticks_missed, authority="service"))
+            self.beat()
             await asyncio.sleep(HEARTBEAT_S)
 
     async def _read_ticks(self) -> None:

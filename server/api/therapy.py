@@ -6,14 +6,12 @@ import asyncio
 import logging
 import secrets
 import time
-from collections.abc import Callable
 from contextlib import suppress
 from datetime import datetime
 from pathlib import Path
 
 from fastapi.concurrency import run_in_threadpool
 
-from db.account import Account
 from db.columns import now_utc
 from db.database import Database
 from db.errors import DatabaseError
@@ -24,8 +22,10 @@ from fusion.skeleton import Side
 from games.catalogue import GAMES
 from games.game import GameView
 from server.api import session_store
+from server.api.authority import Authority, Client
+from server.api.controls import check_level
 from server.api.course import Course, Plan, counted, goal
-from server.api.forms import Action, Answer, Curves, Follow, SessionOpen
+from server.api.forms import Curves, SessionOpen
 from server.api.journal import Journal
 from server.api.limits import session_limits
 from server.api.live import SessionView
@@ -34,18 +34,12 @@ from server.api.station_link import StationLink
 from server.config import Config
 from server.messages import (
     AnyEvent,
+    Assistance,
     CloseSession,
-    Enable,
-    FollowBody,
-    Hold,
     JointLimits,
     LiveTick,
     OpenSession,
-    Reset,
-    Resume,
     SessionClosed,
-    Stop,
-    Wish,
 )
 
 log = logging.getLogger(__name__)
@@ -63,11 +57,15 @@ class Therapy:
         database: where sessions are kept.
         link: the station.
         journal: where events go.
+        authority: given to whoever opens a session.
     """
 
-    def __init__(self, config: Config, data: Path, database: Database, link: StationLink, journal: Journal) -> None:
-        self._config, self._data = config, data
+    def __init__(
+        self, config: Config, data: Path, database: Database, link: StationLink, journal: Journal, authority: Authority
+    ) -> None:
+        self._config, self._data, self._authority = config, data, authority
         self._database, self._link, self._journal = database, link, journal
+        self._was_in_charge = ""
         self._course: Course | None = None
         self._turn = asyncio.Lock()
         self._closed = asyncio.Event()
@@ -92,7 +90,16 @@ class Therapy:
 
     def view(self) -> SessionView | None:
         """The open session in a line."""
-        return None if self._course is None else self._course.view()
+        return None if self._course is None else self._course.view(self._authority.view())
+
+    def in_charge(self) -> str:
+        """The account that is in charge and connected, "" = nobody; asked at every heartbeat, noted when it changes."""
+        name, before = self._authority.in_charge, self._was_in_charge
+        if name != before and self._course is not None:
+            text = f"{name} is in charge" if name else f"{before} is not connected; nobody is in charge"
+            self._journal.note(self._course.plan.id, "authority", text, before=before, after=name)
+        self._was_in_charge = name
+        return name
 
     async def current(self) -> SessionPublic | None:
         """The open session, or None."""
@@ -101,11 +108,12 @@ class Therapy:
             return None
         return await run_in_threadpool(session_store.public, self._database, course.plan.id)
 
-    async def open(self, form: SessionOpen, account: Account) -> SessionPublic:
-        """Open a session.
+    async def open(self, form: SessionOpen, client: Client) -> SessionPublic:
+        """Open a session; the page that does is in charge of it.
 
         Raises:
-            RefusedError: one is open, the side is not confirmed, no movement is possible, the station refuses.
+            RefusedError: one is open, the side is not confirmed, nobody has signed for the limits, no movement is
+                possible, the station refuses.
             ApiError: there is no such patient.
         """
         async with self._turn:
@@ -114,62 +122,39 @@ class Therapy:
             _check_game(form.game)
             patient = await run_in_threadpool(session_store.existing_patient, self._database, form.patient_id)
             _check_side(form, patient)
-            limits = session_limits(patient.passive_range, self._config.station.device)
+            _check_limits(form, patient)
+            limits = session_limits(patient.limits, self._config.station.device)
             begun = await run_in_threadpool(
-                session_store.begin, self._database, form, account, secrets.randbits(31), limits
+                session_store.begin, self._database, form, patient, client.account_id, secrets.randbits(31), limits
             )
-            await self._open_at_station(begun, patient, limits, account)
+            await self._open_at_station(begun, patient, limits)
             self._course = Course(self._plan(begun, patient, limits))
-            self._journal.note(begun.id or 0, "opened", f"opened by {account.name}", by=account.name)
+            self._journal.note(begun.id or 0, "opened", f"opened by {client.account}", by=client.account)
+            self._authority.give(client)
+            self._link.beat()
             return await run_in_threadpool(session_store.public, self._database, begun.id or 0)
 
-    async def control(self, session_id: int, action: Action, account: Account) -> Answer:
-        """Do what a person wants of the arm.
-
-        Raises:
-            RefusedError: the session is not open, or the station refuses.
-        """
-        course = self._opened(session_id)
-        if course.interrupted and action != "stop":
-            raise RefusedError(
-                "the station was restarted during this session",
-                "a session that the station has followed from its beginning",
-                "end this session and open a new one",
-            )
-        answer = await self._link.ask(_wish_for(action, account.name))
-        self._journal.note(session_id, "control", action, by=account.name)
-        return Answer(state=answer.state, reason=answer.reason)
-
-    async def follow(self, session_id: int, form: Follow, account: Account) -> Answer:
-        """Say which body of a sensor is the patient.
-
-        Raises:
-            RefusedError: the session is not open, or the station refuses.
-        """
-        self._opened(session_id)
-        answer = await self._link.ask(lambda number: FollowBody(number=number, sensor=form.sensor, body=form.body))
-        self._journal.note(session_id, "follow", f"{form.sensor} body {form.body}", by=account.name)
-        return Answer(state=answer.state, reason=answer.reason)
-
-    async def end(self, session_id: int, pain_after: int | None, account: Account) -> SessionDetail:
+    async def end(self, session_id: int, pain_after: int | None, client: Client) -> SessionDetail:
         """End the session and store what it measured.
 
         Where the database refuses, the session stays open so that it can be ended again; nothing of it is lost.
 
         Raises:
-            RefusedError: the session is not open.
+            RefusedError: the session is not open, or another page is in charge.
             DatabaseError: it could not be stored.
         """
         async with self._turn:
-            course = self._opened(session_id)
+            course = self.opened(session_id)
+            self._authority.require(client)
             course.saving = True
             try:
-                await self._close_at_station(course, account)
+                await self._close_at_station(course, client)
                 await self._store_end(course, pain_after)
             except DatabaseError:
                 course.saving = False
                 raise
             self._course = None
+            self._authority.end()
             await self._journal.written()
             await self.measure(session_id)
             return await run_in_threadpool(session_store.detail, self._database, session_id)
@@ -200,9 +185,7 @@ class Therapy:
         metrics = measure(self._data / found.recording, Side(found.affected_side).other, score)
         session_store.store_metrics(self._database, session_id, metrics)
 
-    async def _open_at_station(
-        self, begun: TherapySession, patient: Patient, limits: tuple[JointLimits, ...], account: Account
-    ) -> None:
+    async def _open_at_station(self, begun: TherapySession, patient: Patient, limits: tuple[JointLimits, ...]) -> None:
         recording = self._data / begun.recording
         recording.parent.mkdir(parents=True, exist_ok=True)
         try:
@@ -214,8 +197,10 @@ class Therapy:
                     healthy_side=Side(patient.healthy_side),
                     side_confirmed=True,
                     limits=limits,
-                    limits_set_by=account.name,
+                    limits_set_by=patient.limits_set_by,
                     recording=str(recording),
+                    assistance=Assistance(begun.assistance),
+                    level=begun.assist_level,
                 )
             )
         except RefusedError:
@@ -234,12 +219,13 @@ class Therapy:
             seed=begun.seed,
             level=begun.level,
             limits=limits,
+            assist_level_most=patient.assist_level_most,
             soft_margin_rad=self._config.station.gate.soft_margin_rad,
             started=begun.started_at,
             t_started_s=time.monotonic(),
         )
 
-    async def _close_at_station(self, course: Course, account: Account) -> None:
+    async def _close_at_station(self, course: Course, client: Client) -> None:
         if course.closed:
             return
         self._closed.clear()
@@ -250,14 +236,19 @@ class Therapy:
         except (RefusedError, TimeoutError) as error:
             self._journal.note(course.plan.id, "not closed", f"the station did not close the session: {error}")
         course.closed = True
-        self._journal.note(course.plan.id, "ended", f"ended by {account.name}", by=account.name)
+        self._journal.note(course.plan.id, "ended", f"ended by {client.account}", by=client.account)
 
     async def _store_end(self, course: Course, pain_after: int | None) -> None:
         status = SessionStatus.INTERRUPTED if course.interrupted else SessionStatus.ENDED
         ended_at: datetime = now_utc()
         await run_in_threadpool(session_store.finish, self._database, course.plan.id, status, ended_at, pain_after)
 
-    def _opened(self, session_id: int) -> Course:
+    def opened(self, session_id: int) -> Course:
+        """The open session.
+
+        Raises:
+            RefusedError: that session is not open.
+        """
         course = self._course
         if course is None or course.plan.id != session_id:
             raise RefusedError(f"session {session_id} is not open", "the open session", "open a session first")
@@ -276,21 +267,20 @@ class Therapy:
             self._journal.note(self._course.plan.id, "interrupted", f"the station died: {words}")
 
 
-def _wish_for(action: Action, who: str) -> Callable[[int], Wish]:
-    reason = f"{who} pressed {action}"
-    makers: dict[Action, Callable[[int], Wish]] = {
-        "start": lambda number: Enable(number=number),
-        "hold": lambda number: Hold(number=number, reason=reason),
-        "resume": lambda number: Resume(number=number),
-        "stop": lambda number: Stop(number=number, reason=reason),
-        "reset": lambda number: Reset(number=number),
-    }
-    return makers[action]
-
-
 def _check_game(name: str) -> None:
     if name not in GAMES:
         raise InputError(f"there is no game '{name}'", f"one of {', '.join(sorted(GAMES))}", "choose one of these")
+
+
+def _check_limits(form: SessionOpen, patient: Patient) -> None:
+    if not patient.limits_set_by:
+        raise RefusedError(
+            f"nobody has signed for {patient.name}'s limits",
+            "limits that a therapist has confirmed as they are now",
+            "look at the limits on the patient's page and confirm them",
+        )
+    if form.assist_level is not None:
+        check_level(form.assist_level, patient.assist_level_most)
 
 
 def _check_side(form: SessionOpen, patient: Patient) -> None:

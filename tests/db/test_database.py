@@ -12,8 +12,9 @@ from sqlalchemy import inspect
 from db.account import Account
 from db.database import open_database
 from db.errors import CannotOpenError, NotStoredError, TooNewError
+from db.limits import JointRange
 from db.migrate import downgrade, upgrade
-from db.patient import JointRange, PatientCreate, PatientUpdate
+from db.patient import PatientCreate, PatientUpdate
 from db.queries import accounts, patients, sessions
 from db.sqlite import create_sqlite_engine
 from db.tables import METADATA

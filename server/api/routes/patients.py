@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from fastapi import APIRouter
 
-from db.patient import PassiveRange, Patient, PatientCreate, PatientPublic, PatientUpdate
+from db.limits import PassiveRange, PatientLimits
+from db.patient import Patient, PatientCreate, PatientPublic, PatientUpdate
 from db.queries import patients, sessions
 from db.therapy_session import SessionDetail
-from server.api.deps import AccountDep, SessionDep
+from fusion.errors import RefusedError
+from server.api.deps import AccountDep, SessionDep, TherapistDep
 from server.api.errors import answers, not_found
 
 router = APIRouter(prefix="/patients", tags=["patients"])
@@ -19,8 +21,8 @@ def list_patients(_: AccountDep, session: SessionDep) -> list[PatientPublic]:
     return [_public(patient) for patient in patients.list_patients(session)]
 
 
-@router.post("", status_code=201, responses=answers(401, 422, 503))
-def enrol_patient(form: PatientCreate, account: AccountDep, session: SessionDep) -> PatientPublic:
+@router.post("", status_code=201, responses=answers(401, 403, 422, 503))
+def enrol_patient(form: PatientCreate, account: TherapistDep, session: SessionDep) -> PatientPublic:
     """Enrol a patient."""
     return _public(patients.add_patient(session, form, account.id or 0))
 
@@ -31,16 +33,35 @@ def read_cautious_range(_: AccountDep) -> PassiveRange:
     return PassiveRange()
 
 
+@router.get("/cautious-limits", responses=answers(401, 503))
+def read_cautious_limits(_: AccountDep) -> PatientLimits:
+    """The same with torques and help."""
+    return PatientLimits()
+
+
 @router.get("/{patient_id}", responses=answers(401, 404, 422, 503))
 def read_patient(patient_id: int, _: AccountDep, session: SessionDep) -> PatientPublic:
     """One patient."""
     return _public(_existing(session, patient_id))
 
 
-@router.patch("/{patient_id}", responses=answers(401, 404, 422, 503))
-def change_patient(patient_id: int, form: PatientUpdate, _: AccountDep, session: SessionDep) -> PatientPublic:
-    """Change what the form names; it holds from the next session on."""
+@router.patch("/{patient_id}", responses=answers(401, 403, 404, 422, 503))
+def change_patient(patient_id: int, form: PatientUpdate, _: TherapistDep, session: SessionDep) -> PatientPublic:
+    """Change what the form names; it holds from the next session on. Changed limits want a new signature."""
     return _public(patients.change_patient(session, _existing(session, patient_id), form))
+
+
+@router.post("/{patient_id}/confirm-limits", responses=answers(401, 403, 404, 409, 422, 503))
+def confirm_limits(patient_id: int, seen: PatientLimits, account: TherapistDep, session: SessionDep) -> PatientPublic:
+    """Sign for the patient's limits, as they were seen; without that no session can be opened."""
+    patient = _existing(session, patient_id)
+    if seen != patient.limits:
+        raise RefusedError(
+            f"{patient.name}'s limits are not those that you have seen",
+            "the limits as they are stored",
+            "look at them again",
+        )
+    return _public(patients.sign_limits(session, patient, account.name))
 
 
 @router.get("/{patient_id}/sessions", responses=answers(401, 404, 422, 503))

@@ -6,23 +6,42 @@ from fastapi import APIRouter
 
 from db.queries import sessions
 from db.therapy_session import EventPublic, SessionDetail, SessionPublic
-from server.api.deps import AccountDep, SessionDep, TherapyDep
+from server.api.deps import AccountDep, ClientDep, ControlsDep, SessionDep, TherapistDep, TherapyDep
 from server.api.errors import answers, not_found
-from server.api.forms import Answer, Control, Curves, Follow, SessionEnd, SessionOpen
+from server.api.forms import (
+    Answer,
+    AssistanceForm,
+    AuthorityPublic,
+    Control,
+    Curves,
+    Follow,
+    MeasuredRange,
+    SessionEnd,
+    SessionOpen,
+    TakeOver,
+)
 
 router = APIRouter(prefix="/sessions", tags=["sessions"])
 
 
-@router.post("", status_code=201, responses=answers(401, 404, 409, 422, 503))
-async def open_session(form: SessionOpen, account: AccountDep, therapy: TherapyDep) -> SessionPublic:
-    """Open a session for a patient; one at a time, and only with the affected side confirmed."""
-    return await therapy.open(form, account)
+@router.post("", status_code=201, responses=answers(401, 403, 404, 409, 422, 503))
+async def open_session(form: SessionOpen, _: TherapistDep, client: ClientDep, therapy: TherapyDep) -> SessionPublic:
+    """Open a session for a patient; one at a time, only with the affected side confirmed and the limits signed for.
+    The page that asks is in charge of it.
+    """
+    return await therapy.open(form, client)
 
 
 @router.get("/current", responses=answers(401, 503))
 async def read_current(_: AccountDep, therapy: TherapyDep) -> SessionPublic | None:
     """The open session, or null."""
     return await therapy.current()
+
+
+@router.get("/current/authority", responses=answers(401, 503))
+async def read_authority(_: AccountDep, controls: ControlsDep) -> AuthorityPublic | None:
+    """Who is in charge of the open session, or null."""
+    return controls.authority()
 
 
 @router.get("/{session_id}", responses=answers(401, 404, 422, 503))
@@ -45,21 +64,51 @@ def read_events(session_id: int, _: AccountDep, session: SessionDep) -> list[Eve
 
 
 @router.post("/{session_id}/control", responses=answers(401, 404, 409, 422, 503))
-async def control(session_id: int, form: Control, account: AccountDep, therapy: TherapyDep) -> Answer:
-    """Start, hold, resume, stop or reset the arm. 409 with the reason where that is refused."""
-    return await therapy.control(session_id, form.action, account)
+async def control(session_id: int, form: Control, client: ClientDep, controls: ControlsDep) -> Answer:
+    """Start, hold, resume, stop or reset the arm, or say that it hurts. 409 with the reason where that is refused.
+    Hold, stop and pain are for everybody who is logged in, the rest for the page in charge.
+    """
+    return await controls.control(session_id, form.action, client)
+
+
+@router.post("/{session_id}/assistance", responses=answers(401, 404, 409, 422, 503))
+async def help_arm(session_id: int, form: AssistanceForm, client: ClientDep, controls: ControlsDep) -> Answer:
+    """Choose how, and how much at most, the drive helps from now on; only for the page in charge."""
+    return await controls.help(session_id, form, client)
+
+
+@router.post("/{session_id}/authority", responses=answers(401, 403, 404, 409, 422, 503))
+async def take_over(
+    session_id: int, form: TakeOver, _: TherapistDep, client: ClientDep, controls: ControlsDep
+) -> AuthorityPublic | None:
+    """Take over. While another page is in charge and connected, this must be confirmed. A moving arm is held."""
+    return await controls.take(session_id, form.confirmed, client)
+
+
+@router.post("/{session_id}/measured-range", responses=answers(401, 404, 409, 422, 503))
+async def measure_range(session_id: int, client: ClientDep, controls: ControlsDep) -> MeasuredRange:
+    """Begin anew to measure how far the patient moves the arm unaided; only for the page in charge, and only while
+    the arm is engaged and moves freely.
+    """
+    return controls.measure_range(session_id, client)
+
+
+@router.get("/{session_id}/measured-range", responses=answers(401, 404, 409, 422, 503))
+async def read_measured_range(session_id: int, _: AccountDep, controls: ControlsDep) -> MeasuredRange:
+    """What has been measured since; a proposal for the patient's passive range, for a person to confirm."""
+    return controls.measured_range(session_id)
 
 
 @router.post("/{session_id}/follow", responses=answers(401, 404, 409, 422, 503))
-async def follow(session_id: int, form: Follow, account: AccountDep, therapy: TherapyDep) -> Answer:
-    """Say which body of a sensor is the patient."""
-    return await therapy.follow(session_id, form, account)
+async def follow(session_id: int, form: Follow, client: ClientDep, controls: ControlsDep) -> Answer:
+    """Say which body of a sensor is the patient; only for the page in charge."""
+    return await controls.follow(session_id, form, client)
 
 
 @router.post("/{session_id}/end", responses=answers(401, 404, 409, 422, 503))
-async def end_session(session_id: int, form: SessionEnd, account: AccountDep, therapy: TherapyDep) -> SessionDetail:
-    """Stop, finish the recording, compute the metrics and store them."""
-    return await therapy.end(session_id, form.pain_after, account)
+async def end_session(session_id: int, form: SessionEnd, client: ClientDep, therapy: TherapyDep) -> SessionDetail:
+    """Stop, finish the recording, compute the metrics and store them; only for the page in charge."""
+    return await therapy.end(session_id, form.pain_after, client)
 
 
 def _existing(session: SessionDep, session_id: int) -> SessionDetail:

@@ -123,16 +123,22 @@ def person(alone):
 
 @pytest.fixture
 def enrol():
-    """Enrols a patient whose healthy side is the right one."""
+    """Enrols a patient whose healthy side is the right one, and signs for the limits."""
 
-    def enrolled(client, name="Wang"):
-        answer = client.post("/api/patients", json={"name": name, "healthy_side": "right"})
-        return answer.raise_for_status().json()
+    def enrolled(client, name="Wang", **more):
+        form = {"name": name, "healthy_side": "right", **more}
+        return sign(client, client.post("/api/patients", json=form).raise_for_status().json())
 
     return enrolled
+
+
+def sign(client, patient):
+    """Confirm a patient's limits as they are."""
+    seen = {key: patient[key] for key in ("passive_range", "force_limits", "assist_level_most")}
+    return client.post(f"/api/patients/{patient['id']}/confirm-limits", json=seen).raise_for_status().json()
 
 
 @pytest.fixture
 def new_patient(therapist, enrol):
     """Enrols a patient with the shared service."""
-    return lambda name="Wang": enrol(therapist, name)
+    return lambda name="Wang", **more: enrol(therapist, name, **more)

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from db.patient import JointRange, PassiveRange
+from db.limits import ForceLimits, JointForce, JointRange, PassiveRange, PatientLimits
 from fusion.errors import RefusedError
 from fusion.skeleton import Side
 from server.api.course import Course, Plan, goal
@@ -19,6 +19,7 @@ from server.messages import DriveState
 
 DEVICE = StationConfig().device
 angles = st.floats(-3.1, 3.1)
+torques = st.floats(0.1, 60.0)
 
 
 def _stand_in():
@@ -45,7 +46,8 @@ def course():
             game="reach",
             seed=3,
             level=0.3,
-            limits=session_limits(PassiveRange(), DEVICE),
+            limits=session_limits(PatientLimits(), DEVICE),
+            assist_level_most=0.8,
             soft_margin_rad=0.1,
             started=datetime(2026, 3, 1, tzinfo=UTC),
             t_started_s=10.0,
@@ -58,15 +60,23 @@ def test_limits_are_inside_both_ranges_or_refused(one, other):
     low, high = sorted((one, other))
     if low == high:
         return
-    passive = PassiveRange(elbow=JointRange(min_rad=low, max_rad=high))
+    patient = PatientLimits(passive_range=PassiveRange(elbow=JointRange(min_rad=low, max_rad=high)))
     device = DEVICE[-1]
     if max(low, device.min_rad) >= min(high, device.max_rad):
         with pytest.raises(RefusedError, match="elbow"):
-            session_limits(passive, DEVICE)
+            session_limits(patient, DEVICE)
         return
-    elbow = session_limits(passive, DEVICE)[-1]
+    elbow = session_limits(patient, DEVICE)[-1]
     assert (elbow.min_rad, elbow.max_rad) == (max(low, device.min_rad), min(high, device.max_rad))
     assert elbow.velocity_rad_s == device.velocity_rad_s
+
+
+@given(torques, torques)
+def test_sr2_torques_are_the_lesser_of_the_patients_and_the_devices(torque_nm, resistance_nm):
+    force = JointForce(torque_nm=torque_nm, resistance_nm=resistance_nm)
+    elbow = session_limits(PatientLimits(force_limits=ForceLimits(elbow=force)), DEVICE)[-1]
+    assert elbow.torque_nm == min(torque_nm, DEVICE[-1].torque_nm)
+    assert elbow.resistance_nm == min(resistance_nm, DEVICE[-1].resistance_nm)
 
 
 @pytest.mark.parametrize(
@@ -82,8 +92,8 @@ def test_limits_are_inside_both_ranges_or_refused(one, other):
 )
 def test_every_state_of_the_arm_has_a_phase(course, state, phase):
     course.step(tick(11.0, state))
-    assert course.view().phase == phase
-    assert course.view().elapsed_s == pytest.approx(1.0)
+    assert course.view(None).phase == phase
+    assert course.view(None).elapsed_s == pytest.approx(1.0)
 
 
 def test_there_is_no_game_before_the_arm_was_first_engaged(course):

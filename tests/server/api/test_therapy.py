@@ -109,11 +109,10 @@ def test_a_session_that_cannot_be_is_refused(therapist, new_patient, form, statu
     assert set(answer.json()["detail"]) == {"what", "expected", "remedy"}
 
 
-def test_a_range_that_the_device_does_not_have_is_refused(therapist):
+def test_a_range_that_the_device_does_not_have_is_refused(therapist, new_patient):
     full = {"min_rad": 0.0, "max_rad": 1.0}
     beyond = {"plane": full, "elevation": full, "rotation": full, "elbow": {"min_rad": 3.0, "max_rad": 3.1}}
-    form = {"name": "Zheng", "healthy_side": "right", "passive_range": beyond}
-    answer = opened(therapist, therapist.post("/api/patients", json=form).json())
+    answer = opened(therapist, new_patient("Zheng", passive_range=beyond))
     assert answer.status_code == 409
     assert "elbow" in answer.json()["detail"]["what"]
 

@@ -128,6 +128,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/patients/cautious-limits": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Cautious Limits
+         * @description The same with torques and help.
+         */
+        get: operations["read_cautious_limits_api_patients_cautious_limits_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/patients/cautious-range": {
         parameters: {
             query?: never;
@@ -167,9 +187,29 @@ export interface paths {
         head?: never;
         /**
          * Change Patient
-         * @description Change what the form names; it holds from the next session on.
+         * @description Change what the form names; it holds from the next session on. Changed limits want a new signature.
          */
         patch: operations["change_patient_api_patients__patient_id__patch"];
+        trace?: never;
+    };
+    "/api/patients/{patient_id}/confirm-limits": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Confirm Limits
+         * @description Sign for the patient's limits, as they were seen; without that no session can be opened.
+         */
+        post: operations["confirm_limits_api_patients__patient_id__confirm_limits_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
         trace?: never;
     };
     "/api/patients/{patient_id}/sessions": {
@@ -203,7 +243,8 @@ export interface paths {
         put?: never;
         /**
          * Open Session
-         * @description Open a session for a patient; one at a time, and only with the affected side confirmed.
+         * @description Open a session for a patient; one at a time, only with the affected side confirmed and the limits signed for.
+         *     The page that asks is in charge of it.
          */
         post: operations["open_session_api_sessions_post"];
         delete?: never;
@@ -232,6 +273,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sessions/current/authority": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Authority
+         * @description Who is in charge of the open session, or null.
+         */
+        get: operations["read_authority_api_sessions_current_authority_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sessions/{session_id}": {
         parameters: {
             query?: never;
@@ -252,6 +313,46 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sessions/{session_id}/assistance": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Help Arm
+         * @description Choose how, and how much at most, the drive helps from now on; only for the page in charge.
+         */
+        post: operations["help_arm_api_sessions__session_id__assistance_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sessions/{session_id}/authority": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Take Over
+         * @description Take over. While another page is in charge and connected, this must be confirmed. A moving arm is held.
+         */
+        post: operations["take_over_api_sessions__session_id__authority_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sessions/{session_id}/control": {
         parameters: {
             query?: never;
@@ -263,7 +364,8 @@ export interface paths {
         put?: never;
         /**
          * Control
-         * @description Start, hold, resume, stop or reset the arm. 409 with the reason where that is refused.
+         * @description Start, hold, resume, stop or reset the arm, or say that it hurts. 409 with the reason where that is refused.
+         *     Hold, stop and pain are for everybody who is logged in, the rest for the page in charge.
          */
         post: operations["control_api_sessions__session_id__control_post"];
         delete?: never;
@@ -303,7 +405,7 @@ export interface paths {
         put?: never;
         /**
          * End Session
-         * @description Stop, finish the recording, compute the metrics and store them.
+         * @description Stop, finish the recording, compute the metrics and store them; only for the page in charge.
          */
         post: operations["end_session_api_sessions__session_id__end_post"];
         delete?: never;
@@ -343,9 +445,34 @@ export interface paths {
         put?: never;
         /**
          * Follow
-         * @description Say which body of a sensor is the patient.
+         * @description Say which body of a sensor is the patient; only for the page in charge.
          */
         post: operations["follow_api_sessions__session_id__follow_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sessions/{session_id}/measured-range": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Measured Range
+         * @description What has been measured since; a proposal for the patient's passive range, for a person to confirm.
+         */
+        get: operations["read_measured_range_api_sessions__session_id__measured_range_get"];
+        put?: never;
+        /**
+         * Measure Range
+         * @description Begin anew to measure how far the patient moves the arm unaided; only for the page in charge, and only while
+         *     the arm is engaged and moves freely.
+         */
+        post: operations["measure_range_api_sessions__session_id__measured_range_post"];
         delete?: never;
         options?: never;
         head?: never;
@@ -449,6 +576,8 @@ export interface components {
             id: number;
             /** Name */
             name: string;
+            /** @default therapist */
+            role: components["schemas"]["Role"];
         };
         /**
          * Acknowledgement
@@ -461,7 +590,7 @@ export interface components {
         };
         /**
          * AllLimits
-         * @description The limits of every joint in this session.
+         * @description The limits of every joint in this session, and who signed for them.
          */
         AllLimits: {
             /**
@@ -469,6 +598,13 @@ export interface components {
              * @default []
              */
             joints: components["schemas"]["LimitsSnapshot"][];
+            /** Set At */
+            set_at?: string | null;
+            /**
+             * Set By
+             * @default
+             */
+            set_by: string;
         };
         /**
          * Answer
@@ -552,9 +688,48 @@ export interface components {
         /**
          * Assistance
          * @description How much of the movement is the drive's.
-         * @enum {unknown}
+         * @enum {string}
          */
-        Assistance: "assisted" | "free" | "passive";
+        Assistance: "passive" | "assisted" | "free";
+        /**
+         * AssistanceForm
+         * @description How the drive is to help from now on.
+         * @example {
+         *       "level": 0.5,
+         *       "mode": "assisted"
+         *     }
+         */
+        AssistanceForm: {
+            /** Level */
+            level: number;
+            mode: components["schemas"]["Assistance"];
+        };
+        /**
+         * AuthorityPublic
+         * @description Who is in charge of the open session.
+         * @example {
+         *       "account": "Dr. Lin",
+         *       "client": "3f1c9e",
+         *       "connected": true
+         *     }
+         */
+        AuthorityPublic: {
+            /** Account */
+            account: string;
+            /** Client */
+            client: string;
+            /** Connected */
+            connected: boolean;
+        };
+        /**
+         * AuthorityView
+         * @description Who is in charge of the open session (SR-11).
+         */
+        AuthorityView: {
+            account: string;
+            client: string;
+            connected: boolean;
+        };
         /**
          * BodyView
          * @description The fused body.
@@ -581,7 +756,7 @@ export interface components {
              * Action
              * @enum {string}
              */
-            action: "start" | "hold" | "resume" | "stop" | "reset";
+            action: "start" | "hold" | "resume" | "stop" | "reset" | "pain";
         };
         /**
          * Credentials
@@ -759,6 +934,40 @@ export interface components {
             sensor: string;
         };
         /**
+         * ForceLimits
+         * @description With how much torque each joint of the affected arm may be moved. The defaults are cautious.
+         */
+        ForceLimits: {
+            /**
+             * @default {
+             *       "resistance_nm": 6,
+             *       "torque_nm": 15
+             *     }
+             */
+            elbow: components["schemas"]["JointForce"];
+            /**
+             * @default {
+             *       "resistance_nm": 6,
+             *       "torque_nm": 15
+             *     }
+             */
+            elevation: components["schemas"]["JointForce"];
+            /**
+             * @default {
+             *       "resistance_nm": 6,
+             *       "torque_nm": 15
+             *     }
+             */
+            plane: components["schemas"]["JointForce"];
+            /**
+             * @default {
+             *       "resistance_nm": 6,
+             *       "torque_nm": 15
+             *     }
+             */
+            rotation: components["schemas"]["JointForce"];
+        };
+        /**
          * GamePublic
          * @description A game that can be chosen.
          * @example {
@@ -808,6 +1017,24 @@ export interface components {
             rotation: (number | null)[];
         };
         /**
+         * JointForce
+         * @description With how much torque one joint may be moved, in newton metres.
+         */
+        JointForce: {
+            /**
+             * Resistance Nm
+             * @description Where the arm resists with more, a soft hold at once (SR-18).
+             * @default 6
+             */
+            resistance_nm: number;
+            /**
+             * Torque Nm
+             * @description The most beyond carrying the arm (SR-2).
+             * @default 15
+             */
+            torque_nm: number;
+        };
+        /**
          * JointLimits
          * @description What one exoskeleton joint may do for this patient.
          */
@@ -854,6 +1081,10 @@ export interface components {
             max_rad: number;
             /** Min Rad */
             min_rad: number;
+            /** Resistance Nm */
+            resistance_nm?: number | null;
+            /** Torque Nm */
+            torque_nm?: number | null;
             /** Velocity Rad S */
             velocity_rad_s: number;
         };
@@ -894,6 +1125,18 @@ export interface components {
             timing: components["schemas"]["Timing"];
             trunk_lean_m: number;
             warnings: string[];
+        };
+        /**
+         * MeasuredRange
+         * @description How far each joint was moved while the drive only carried the arm.
+         * @example {
+         *       "ticks": 0
+         *     }
+         */
+        MeasuredRange: {
+            range: components["schemas"]["PassiveRange"] | null;
+            /** Ticks */
+            ticks: number;
         };
         /**
          * MetricPublic
@@ -989,8 +1232,28 @@ export interface components {
         };
         /**
          * PatientCreate
-         * @description What a therapist fills in at enrolment.
+         * @description What a therapist fills in at enrolment. Nothing may move before somebody has signed for the limits.
          * @example {
+         *       "assist_level_most": 0.8,
+         *       "assistance": "assisted",
+         *       "force_limits": {
+         *         "elbow": {
+         *           "resistance_nm": 6,
+         *           "torque_nm": 15
+         *         },
+         *         "elevation": {
+         *           "resistance_nm": 6,
+         *           "torque_nm": 15
+         *         },
+         *         "plane": {
+         *           "resistance_nm": 6,
+         *           "torque_nm": 15
+         *         },
+         *         "rotation": {
+         *           "resistance_nm": 6,
+         *           "torque_nm": 15
+         *         }
+         *       },
          *       "healthy_side": "right",
          *       "name": "Wang",
          *       "notes": "tires quickly",
@@ -1016,6 +1279,20 @@ export interface components {
          */
         PatientCreate: {
             /**
+             * Assist Level Most
+             * @description The most help while assisted, 0 to 1.
+             * @default 1
+             */
+            assist_level_most: number;
+            /**
+             * Assistance
+             * @description How a session begins.
+             * @default passive
+             * @enum {string}
+             */
+            assistance: "passive" | "assisted" | "free";
+            force_limits?: components["schemas"]["ForceLimits"];
+            /**
              * Healthy Side
              * @description The patient's own left or right.
              * @enum {string}
@@ -1034,15 +1311,121 @@ export interface components {
             passive_range?: components["schemas"]["PassiveRange"];
         };
         /**
+         * PatientLimits
+         * @description Everything that a person signs for.
+         * @example {
+         *       "assist_level_most": 0.8,
+         *       "force_limits": {
+         *         "elbow": {
+         *           "resistance_nm": 6,
+         *           "torque_nm": 15
+         *         },
+         *         "elevation": {
+         *           "resistance_nm": 6,
+         *           "torque_nm": 15
+         *         },
+         *         "plane": {
+         *           "resistance_nm": 6,
+         *           "torque_nm": 15
+         *         },
+         *         "rotation": {
+         *           "resistance_nm": 6,
+         *           "torque_nm": 15
+         *         }
+         *       },
+         *       "passive_range": {
+         *         "elbow": {
+         *           "max_rad": 2.356194490192345,
+         *           "min_rad": 0
+         *         },
+         *         "elevation": {
+         *           "max_rad": 1.7453292519943295,
+         *           "min_rad": 0
+         *         },
+         *         "plane": {
+         *           "max_rad": 2.0943951023931953,
+         *           "min_rad": -0.3490658503988659
+         *         },
+         *         "rotation": {
+         *           "max_rad": 1.3962634015954636,
+         *           "min_rad": -1.0471975511965976
+         *         }
+         *       }
+         *     }
+         */
+        PatientLimits: {
+            /**
+             * Assist Level Most
+             * @default 1
+             */
+            assist_level_most: number;
+            /**
+             * @default {
+             *       "elbow": {
+             *         "resistance_nm": 6,
+             *         "torque_nm": 15
+             *       },
+             *       "elevation": {
+             *         "resistance_nm": 6,
+             *         "torque_nm": 15
+             *       },
+             *       "plane": {
+             *         "resistance_nm": 6,
+             *         "torque_nm": 15
+             *       },
+             *       "rotation": {
+             *         "resistance_nm": 6,
+             *         "torque_nm": 15
+             *       }
+             *     }
+             */
+            force_limits: components["schemas"]["ForceLimits"];
+            /**
+             * @default {
+             *       "elbow": {
+             *         "max_rad": 2.356194490192345,
+             *         "min_rad": 0
+             *       },
+             *       "elevation": {
+             *         "max_rad": 1.7453292519943295,
+             *         "min_rad": 0
+             *       },
+             *       "plane": {
+             *         "max_rad": 2.0943951023931953,
+             *         "min_rad": -0.3490658503988659
+             *       },
+             *       "rotation": {
+             *         "max_rad": 1.3962634015954636,
+             *         "min_rad": -1.0471975511965976
+             *       }
+             *     }
+             */
+            passive_range: components["schemas"]["PassiveRange"];
+        };
+        /**
          * PatientPublic
          * @description A patient as the browser sees it.
          */
         PatientPublic: {
             /**
+             * Assist Level Most
+             * @description The most help while assisted, 0 to 1.
+             * @default 1
+             */
+            assist_level_most: number;
+            /**
+             * Assistance
+             * @description How a session begins.
+             * @default passive
+             * @enum {string}
+             */
+            assistance: "passive" | "assisted" | "free";
+            /**
              * Created At
              * Format: date-time
              */
             created_at: string;
+            force_limits?: components["schemas"]["ForceLimits"];
             /**
              * Healthy Side
              * @description The patient's own left or right.
@@ -1051,6 +1434,13 @@ export interface components {
             healthy_side: "left" | "right";
             /** Id */
             id: number;
+            /** Limits Set At */
+            limits_set_at: string | null;
+            /**
+             * Limits Set By
+             * @description Account that signed for the limits as they are; empty = nobody has.
+             */
+            limits_set_by: string;
             /**
              * Name
              * @description A name or a pseudonym.
@@ -1070,12 +1460,17 @@ export interface components {
         };
         /**
          * PatientUpdate
-         * @description What a therapist may change later; whatever is left out stays.
+         * @description What a therapist may change later; whatever is left out stays. Changed limits want a new signature.
          * @example {
          *       "notes": "no longer tires"
          *     }
          */
         PatientUpdate: {
+            /** Assist Level Most */
+            assist_level_most?: number | null;
+            /** Assistance */
+            assistance?: ("passive" | "assisted" | "free") | null;
+            force_limits?: components["schemas"]["ForceLimits"] | null;
             /** Healthy Side */
             healthy_side?: ("left" | "right") | null;
             /** Name */
@@ -1117,6 +1512,12 @@ export interface components {
             reason: string;
             sensor: string;
         };
+        /**
+         * Role
+         * @description What an account is for.
+         * @enum {string}
+         */
+        Role: "admin" | "therapist" | "screen";
         /**
          * Screen
          * @description What kind of page looks.
@@ -1161,6 +1562,19 @@ export interface components {
              * @enum {string}
              */
             affected_side: "left" | "right";
+            /**
+             * Assist Level
+             * @description The most help while assisted, at the start.
+             * @default 1
+             */
+            assist_level: number;
+            /**
+             * Assistance
+             * @description How the drive began to help.
+             * @default passive
+             * @enum {string}
+             */
+            assistance: "passive" | "assisted" | "free";
             /** Ended At */
             ended_at?: string | null;
             /** Game */
@@ -1229,6 +1643,10 @@ export interface components {
          *     }
          */
         SessionOpen: {
+            /** Assist Level */
+            assist_level?: number | null;
+            /** Assistance */
+            assistance?: ("passive" | "assisted" | "free") | null;
             /**
              * Confirmed Affected Side
              * @enum {string}
@@ -1265,6 +1683,19 @@ export interface components {
              * @enum {string}
              */
             affected_side: "left" | "right";
+            /**
+             * Assist Level
+             * @description The most help while assisted, at the start.
+             * @default 1
+             */
+            assist_level: number;
+            /**
+             * Assistance
+             * @description How the drive began to help.
+             * @default passive
+             * @enum {string}
+             */
+            assistance: "passive" | "assisted" | "free";
             /** Ended At */
             ended_at?: string | null;
             /** Game */
@@ -1317,6 +1748,8 @@ export interface components {
          */
         SessionView: {
             affected_side: components["schemas"]["Side"];
+            assist_level_most: number;
+            authority: components["schemas"]["AuthorityView"] | null;
             elapsed_s: number;
             game: string;
             id: number;
@@ -1340,6 +1773,8 @@ export interface components {
          *           "joint": "elbow",
          *           "max_rad": 2.4,
          *           "min_rad": 0,
+         *           "resistance_nm": 20,
+         *           "torque_nm": 20,
          *           "velocity_rad_s": 1.5
          *         }
          *       ],
@@ -1411,6 +1846,20 @@ export interface components {
             first_start: boolean;
             /** Version */
             version: string;
+        };
+        /**
+         * TakeOver
+         * @description Taking over; while another page is in charge and connected, this must be confirmed.
+         * @example {
+         *       "confirmed": true
+         *     }
+         */
+        TakeOver: {
+            /**
+             * Confirmed
+             * @default false
+             */
+            confirmed: boolean;
         };
         /**
          * TargetView
@@ -1504,7 +1953,7 @@ export interface operations {
                     "application/json": components["schemas"]["DemoWelcome"];
                 };
             };
-            /** @description Not allowed from here */
+            /** @description Not allowed from here, or not for this account */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -1765,8 +2214,55 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorResponse"];
                 };
             };
+            /** @description Not allowed from here, or not for this account */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
             /** @description The form is filled in wrongly */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
+    read_cautious_limits_api_patients_cautious_limits_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PatientLimits"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -1914,8 +2410,97 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorResponse"];
                 };
             };
+            /** @description Not allowed from here, or not for this account */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
             /** @description There is no such thing */
             404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description The form is filled in wrongly */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
+    confirm_limits_api_patients__patient_id__confirm_limits_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                patient_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["PatientLimits"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PatientPublic"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Not allowed from here, or not for this account */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description There is no such thing */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Refused in the present state; the reason is in the detail */
+            409: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -2004,7 +2589,10 @@ export interface operations {
     open_session_api_sessions_post: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description What the page calls itself, the same as at its stream's opening. */
+                "Mirrorlimb-Client"?: string;
+            };
             path?: never;
             cookie?: never;
         };
@@ -2025,6 +2613,15 @@ export interface operations {
             };
             /** @description Nobody is logged in */
             401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Not allowed from here, or not for this account */
+            403: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -2108,6 +2705,44 @@ export interface operations {
             };
         };
     };
+    read_authority_api_sessions_current_authority_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AuthorityPublic"] | null;
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
     read_session_api_sessions__session_id__get: {
         parameters: {
             query?: never;
@@ -2166,10 +2801,170 @@ export interface operations {
             };
         };
     };
+    help_arm_api_sessions__session_id__assistance_post: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description What the page calls itself, the same as at its stream's opening. */
+                "Mirrorlimb-Client"?: string;
+            };
+            path: {
+                session_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["AssistanceForm"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Answer"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description There is no such thing */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Refused in the present state; the reason is in the detail */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description The form is filled in wrongly */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
+    take_over_api_sessions__session_id__authority_post: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description What the page calls itself, the same as at its stream's opening. */
+                "Mirrorlimb-Client"?: string;
+            };
+            path: {
+                session_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["TakeOver"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AuthorityPublic"] | null;
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Not allowed from here, or not for this account */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description There is no such thing */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Refused in the present state; the reason is in the detail */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description The form is filled in wrongly */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
     control_api_sessions__session_id__control_post: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description What the page calls itself, the same as at its stream's opening. */
+                "Mirrorlimb-Client"?: string;
+            };
             path: {
                 session_id: number;
             };
@@ -2298,7 +3093,10 @@ export interface operations {
     end_session_api_sessions__session_id__end_post: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description What the page calls itself, the same as at its stream's opening. */
+                "Mirrorlimb-Client"?: string;
+            };
             path: {
                 session_id: number;
             };
@@ -2427,7 +3225,10 @@ export interface operations {
     follow_api_sessions__session_id__follow_post: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description What the page calls itself, the same as at its stream's opening. */
+                "Mirrorlimb-Client"?: string;
+            };
             path: {
                 session_id: number;
             };
@@ -2446,6 +3247,143 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Answer"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description There is no such thing */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Refused in the present state; the reason is in the detail */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description The form is filled in wrongly */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
+    read_measured_range_api_sessions__session_id__measured_range_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                session_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MeasuredRange"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description There is no such thing */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Refused in the present state; the reason is in the detail */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description The form is filled in wrongly */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
+    measure_range_api_sessions__session_id__measured_range_post: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description What the page calls itself, the same as at its stream's opening. */
+                "Mirrorlimb-Client"?: string;
+            };
+            path: {
+                session_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MeasuredRange"];
                 };
             };
             /** @description Nobody is logged in */
