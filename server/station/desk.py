@@ -7,10 +7,10 @@ from pathlib import Path
 from fusion.errors import MachineError
 from fusion.recording.log import LogAbout
 from server.config import StationConfig
-from server.messages import CloseSession, FollowBody, Hold, OpenSession, SessionClosed, Stop, Wish
+from server.messages import CloseSession, FollowBody, Hold, OpenSession, Pain, SessionClosed, Stop, Wish
 from server.station.exo import patient_range, safety
 from server.station.exo.driver import Drive
-from server.station.exo.safety import SafetyState
+from server.station.exo.safety_state import SafetyState
 from server.station.perception import Perception
 from server.station.recorder import Recorder
 from server.station.session import Session, opened
@@ -38,12 +38,12 @@ class Desk:
             The gate's state afterwards, and why the wish was refused ("" = granted).
         """
         if wish.number < self._last_stop:
-            return state, "A stop came after this wish."
+            return state, "A stop, or pain, came after this wish."
         if isinstance(wish, OpenSession):
             return self._open(wish, state, now_s)
         if isinstance(wish, FollowBody):
             return self._follow(wish, state, now_s), ""
-        if isinstance(wish, Stop):
+        if isinstance(wish, Stop | Pain):
             self._last_stop = wish.number
         return safety.wish(state, wish, now_s)
 
@@ -82,7 +82,7 @@ class Desk:
         self._perception.treat(wish.healthy_side)
         if self.session.limits:
             self._drive.fit(self.session.limits)
-            after = safety.put_in(after, self._drive.read(now_s))
+            after = safety.put_in(after, self._drive.read(now_s), now_s)
         return after, ""
 
     def _unusable(self, wish: OpenSession) -> str:

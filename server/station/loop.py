@@ -25,11 +25,11 @@ from server.messages import (
 from server.station import session, view
 from server.station.demonstration import Demonstration
 from server.station.desk import Desk
-from server.station.exo import safety
+from server.station.exo import safety, softness
 from server.station.exo.driver import Drive, DriveCommand, DriveReading
 from server.station.exo.evidence import SafetyInputs
 from server.station.exo.mapping import joint_target
-from server.station.exo.safety import SafetyState
+from server.station.exo.safety_state import SafetyState
 from server.station.exo.smoothing import Calm, calmed
 from server.station.overruns import Overruns
 from server.station.perception import Heard, Perception
@@ -67,12 +67,14 @@ class Loop:
         self._config, self._source, self._perception = config, source, perception
         self._drive, self._channels, self._demonstration, self._clock = drive, channels, demonstration, clock
         self._desk = Desk(config, perception, drive)
+        self._device = softness.device_of(config.exoskeleton, drive.can_comply)
         self._warnings = Warnings()
         self._state = SafetyState()
         self._build = Build()
         self._calm = Calm()
         self._index = 0
         self._heartbeat_s = float("-inf")
+        self._authority = ""
         self._frame = PipelineFrame(t_s=0.0, sensors=(), samples=())
         self._trunk_at_enable: Floats | None = None
         self._ticks_missed = 0
@@ -125,7 +127,7 @@ class Loop:
     def _hear_people(self, now_s: float) -> None:
         for wish in (*self._channels.stops(), *self._channels.wishes()):
             if isinstance(wish, Heartbeat):
-                self._heartbeat_s, self._ticks_missed = now_s, wish.ticks_missed
+                self._heartbeat_s, self._ticks_missed, self._authority = now_s, wish.ticks_missed, wish.authority
             else:
                 self._answer(wish, now_s)
 
@@ -165,6 +167,8 @@ class Loop:
             limits=open_session.limits if open_session else (),
             boxes=open_session.boxes if open_session else (),
             blockers=session.lacks(open_session, self._frame),
+            authority=self._authority,
+            device=self._device,
         )
         after, command = safety.step(self._state, inputs, self._config.gate, now_s)
         self._change(after, now_s)
@@ -200,6 +204,7 @@ class Loop:
             may_enable=gate.state is DriveState.READY and not facts.obstacles,
             blockers=facts.obstacles,
             session=open_session.name if open_session else "",
+            authority=self._authority,
             healthy_side=side,
             sensors=tuple(
                 view.sensor_view(quality, samples.get(quality.sensor), self._perception.decoder.dialect_of, now_s)

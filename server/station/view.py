@@ -23,13 +23,14 @@ from fusion.messages import (
     TrunkFrame,
 )
 from fusion.skeleton import Side, arm
-from server.messages import ArmView, BodyView, ExoView, PersonView, Point, SensorView
+from server.messages import ArmView, BodyView, DriveState, ExoView, PersonView, Point, SensorView
 from server.station.exo.driver import DriveCommand, DriveReading, Joints
-from server.station.exo.safety import SafetyState
+from server.station.exo.safety_state import SafetyState
 
 USUAL_LENGTHS = ArmLengths(upper_arm_m=0.29, forearm_m=0.25, hand_m=0.08)
 """An adult's, until the patient's own are learnt."""
 USUAL_HALF_WIDTH_M = 0.18
+STANDING = (DriveState.HOLD, DriveState.STOPPED, DriveState.FAULT)
 _UPPER_TRIANGLE = np.triu_indices(3)  # xx, xy, xz, yy, yz, zz
 
 Points = tuple[Point, Point, Point, Point]
@@ -174,6 +175,11 @@ def exo_view(reading: DriveReading, command: DriveCommand, state: SafetyState) -
         speed_factor=min(state.speed[0], state.speed[1], state.speed[3]),
         blend=state.blend,
         fault=reading.fault,
+        interaction_nm=reading.interaction_nm,
+        share=command.share,
+        assistance=state.help.mode,
+        level=state.help.level,
+        compliant=state.gate.state in STANDING and min(command.share) < 1.0,
     )
 
 

@@ -1,4 +1,4 @@
-"""What the gate knows in one tick: free speed, faults, losses, distance, blockers (SR-2, SR-4, SR-6)."""
+"""What the gate knows of the target in one tick: free speed, losses, distance, blockers (SR-4, SR-6)."""
 
 from __future__ import annotations
 
@@ -7,14 +7,21 @@ from math import isfinite, sin
 
 from server.config import GateConfig
 from server.messages import EXO_JOINTS, JointLimits
-from server.station.exo.driver import JOINT_COUNT, ZERO, DriveReading, Joints
+from server.station.exo.driver import JOINT_COUNT, UNBOUND, DriveReading, Joints
 from server.station.exo.limiter import Box
 from server.station.exo.mapping import JointTarget
 
-RANGE_TOLERANCE_RAD = 0.02
-"""Measured angles this far outside the patient's range are a fault."""
-SPEED_TOLERANCE = 1.5
-"""Measured speed above this multiple of the limit (and 0.3 rad/s more) is a fault."""
+
+@dataclass(frozen=True, slots=True)
+class Device:
+    """What the gate must know of the exoskeleton itself."""
+
+    can_comply: bool = False
+    """Whether its drive obeys a share below 1."""
+    soft_stop: tuple[bool, ...] = (False,) * JOINT_COUNT
+    """Per joint, whether its stop category is `compliant` (SR-7)."""
+    torque_nm: Joints = UNBOUND
+    """The most that each may use, weight and all."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,6 +41,9 @@ class SafetyInputs:
     """Why the station itself must hold (the service has gone, too many ticks were late), in plain words."""
     blockers: tuple[str, ...] = ()
     """What the session lacks (SR-10)."""
+    authority: str = ""
+    """Who is in charge and connected; "" = nobody (SR-11)."""
+    device: Device = Device()
 
 
 def usable(target: JointTarget | None) -> JointTarget | None:
@@ -58,33 +68,6 @@ def _falling(value: float, full: float, none: float) -> float:
     return min(max((none - value) / (none - full), 0.0), 1.0)
 
 
-def sound(reading: DriveReading, expected_rad: Joints) -> DriveReading:
-    """The reading; in place of one with missing joints or what is no number, a fault at the expected angles (SR-2)."""
-    parts = (reading.angle_rad, reading.velocity_rad_s, reading.torque_nm)
-    if all(len(part) == JOINT_COUNT and all(map(isfinite, part)) for part in parts):
-        return reading
-    unusable = "The drive's measurement is not usable (missing joints or not a number)."
-    return DriveReading(reading.t_s, expected_rad, ZERO, ZERO, reading.fault or unusable)
-
-
-def fault(inputs: SafetyInputs, moving: bool) -> str:
-    """What is wrong with drive or arm, in plain words; "" = nothing. Range and speed are judged while `moving`."""
-    return inputs.reading.fault or (_excursion(inputs) if moving else "")
-
-
-def _excursion(inputs: SafetyInputs) -> str:
-    for i, joint in enumerate(inputs.limits):
-        if _outside(inputs.reading.angle_rad[i], joint, RANGE_TOLERANCE_RAD):
-            return f"The {joint.joint} was measured outside the patient's range."
-        if abs(inputs.reading.velocity_rad_s[i]) > SPEED_TOLERANCE * joint.velocity_rad_s + 0.3:
-            return f"The {joint.joint} was measured moving faster than allowed."
-    return ""
-
-
-def _outside(angle_rad: float, joint: JointLimits, tolerance_rad: float) -> bool:
-    return not joint.min_rad - tolerance_rad <= angle_rad <= joint.max_rad + tolerance_rad
-
-
 def lost(target: JointTarget | None, age_s: float, free: Joints, config: GateConfig) -> str:
     """Why the healthy arm cannot be followed at all, in plain words; "" = it can (SR-4)."""
     if age_s > config.stale_s:
@@ -107,21 +90,11 @@ def distance_rad(target: JointTarget, inputs: SafetyInputs, free: Joints) -> Joi
     return (apart[0] * raised, *apart[1:])
 
 
-def blockers(target: JointTarget | None, inputs: SafetyInputs, free: Joints, config: GateConfig) -> tuple[str, ...]:
-    """What forbids motion to begin, besides loss and faults, in plain words (SR-6, SR-10)."""
-    if inputs.blockers or not inputs.boxes:
-        return inputs.blockers
-    outside = tuple(
-        f"The exoskeleton's {joint.joint} stands outside the patient's range; move it by hand."
-        for angle, joint in zip(inputs.reading.angle_rad, inputs.limits, strict=True)
-        if _outside(angle, joint, RANGE_TOLERANCE_RAD)
-    )
-    if outside or target is None:
-        return outside
-    return _far(distance_rad(target, inputs, free), config)
-
-
-def _far(apart: Joints, config: GateConfig) -> tuple[str, ...]:
+def far(target: JointTarget | None, inputs: SafetyInputs, free: Joints, config: GateConfig) -> tuple[str, ...]:
+    """Where the target is too far for the arm to be led there, in plain words (SR-6)."""
+    if target is None or not inputs.boxes:
+        return ()
+    apart = distance_rad(target, inputs, free)
     worst = max(range(JOINT_COUNT), key=apart.__getitem__)
     if apart[worst] <= config.engage_within_rad:
         return ()

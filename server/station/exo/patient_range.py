@@ -24,10 +24,11 @@ def refused(limits: tuple[JointLimits, ...], device: tuple[JointLimits, ...]) ->
 
 
 def _joint_refused(own: JointLimits, outer: JointLimits) -> str:
-    if not all(map(isfinite, (own.min_rad, own.max_rad, own.velocity_rad_s, own.acceleration_rad_s2))):
+    positive = (own.velocity_rad_s, own.acceleration_rad_s2, own.torque_nm, own.resistance_nm)
+    if not all(map(isfinite, (own.min_rad, own.max_rad, *positive))):
         return "are not all numbers"
-    if own.velocity_rad_s <= 0 or own.acceleration_rad_s2 <= 0:
-        return "need a velocity and an acceleration above 0"
+    if min(positive) <= 0:
+        return "need a velocity, an acceleration, a torque and a resistance above 0"
     if own.max_rad - own.min_rad < LEAST_RANGE_RAD:
         return f"leave less than {LEAST_RANGE_RAD} rad of movement"
     if min(own.max_rad, outer.max_rad) - max(own.min_rad, outer.min_rad) < LEAST_RANGE_RAD:
@@ -44,6 +45,8 @@ def inside_device(limits: tuple[JointLimits, ...], device: tuple[JointLimits, ..
             max_rad=min(own.max_rad, outer.max_rad),
             velocity_rad_s=min(own.velocity_rad_s, outer.velocity_rad_s),
             acceleration_rad_s2=min(own.acceleration_rad_s2, outer.acceleration_rad_s2),
+            torque_nm=min(own.torque_nm, outer.torque_nm),
+            resistance_nm=min(own.resistance_nm, outer.torque_nm),
         )
         for own, outer in zip(limits, device, strict=True)
     )

@@ -2,53 +2,22 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
-from math import inf
+from dataclasses import replace
 
 from server.config import GateConfig
-from server.messages import EXO_JOINTS, DriveState, Wish
-from server.station.exo import evidence, gate
-from server.station.exo.driver import ONE, ZERO, DriveCommand, DriveMode, DriveReading, Joints
+from server.messages import Assistance, DriveState, OpenSession, SetAssistance, Wish
+from server.station.exo import assistance, evidence, gate, measured, resistance, set_points, softness
+from server.station.exo.driver import JOINT_COUNT, ONE, ZERO, DriveCommand, DriveMode, DriveReading, Joints
 from server.station.exo.evidence import SafetyInputs
-from server.station.exo.gate import Facts, GateState
-from server.station.exo.limiter import Box, Motion, to_rest, towards
+from server.station.exo.gate import Facts
+from server.station.exo.limiter import Motion
 from server.station.exo.mapping import JointTarget
+from server.station.exo.safety_state import SafetyState
 
 SHORTEST_STEP_S = 1e-4
-MOVED_BY_HAND_RAD = 0.05
-TOO_SOON = "The exoskeleton's state has only just changed; ask again."
 LONGEST_STEP_S = 0.02
 """A set-point never moves further than this much time allows, however late the tick."""
-
-
-@dataclass(frozen=True, slots=True)
-class SafetyState:
-    """Everything the gate remembers."""
-
-    gate: GateState = field(default_factory=GateState)
-    motions: tuple[Motion, ...] = (Motion(0.0),) * len(EXO_JOINTS)
-    """The set-points."""
-    following: bool = False
-    """The last tick followed the target."""
-    blend: float = 0.0
-    """0..1 of the blend-in (SR-6)."""
-    blend_over_s: float = inf
-    """How long the blend-in takes."""
-    blend_from: Joints = ZERO
-    thaw: Joints = ZERO
-    """0..1 per joint: a joint that was held comes back as slowly as a blend-in."""
-    frozen_s: float = 0.0
-    """How long the swing has been held by uncertainty."""
-    facts: Facts = field(default_factory=Facts)
-    """Of the last tick; what a person saw who wishes now."""
-    speed: Joints = ONE
-    """0..1 per joint: what uncertainty and age leave of its speed (SR-4)."""
-    last_s: float | None = None
-
-    @property
-    def at_rest(self) -> bool:
-        """Whether every set-point stands still."""
-        return not any(motion.velocity_rad_s for motion in self.motions)
+TOO_SOON = "The exoskeleton's state has only just changed; ask again."
 
 
 def wish(state: SafetyState, wanted: Wish, now_s: float) -> tuple[SafetyState, str]:
@@ -58,15 +27,42 @@ def wish(state: SafetyState, wanted: Wish, now_s: float) -> tuple[SafetyState, s
     arm that has not begun to brake.
     """
     after, refusal = gate.wish(state.gate, wanted, state.facts, now_s)
+    refusal = refusal or _unhelpful(state, wanted)
     if refusal:
         return state, refusal
-    return replace(state, gate=after, facts=replace(state.facts, blockers=(*state.facts.blockers, TOO_SOON))), ""
+    facts = replace(state.facts, blockers=(*state.facts.blockers, TOO_SOON))
+    return _as_chosen(replace(state, gate=after, facts=facts), wanted), ""
 
 
-def put_in(state: SafetyState, reading: DriveReading) -> SafetyState:
+def _unhelpful(state: SafetyState, wanted: Wish) -> str:
+    """Why the way of helping that a wish asks for cannot be."""
+    can_comply = state.facts.can_comply
+    if isinstance(wanted, OpenSession):
+        return assistance.refused(wanted.assistance, wanted.level, can_comply)
+    if not isinstance(wanted, SetAssistance):
+        return ""
+    begins_to_lead = wanted.mode is not state.help.mode and wanted.mode is not Assistance.FREE
+    unled = state.facts.unled if begins_to_lead and state.gate.state is DriveState.ENGAGED else ()
+    return assistance.refused(wanted.mode, wanted.level, can_comply) or " ".join(unled)
+
+
+def _as_chosen(state: SafetyState, wanted: Wish) -> SafetyState:
+    if isinstance(wanted, OpenSession):
+        return replace(state, help=assistance.chosen(state.help, wanted.assistance, wanted.level))
+    if not isinstance(wanted, SetAssistance):
+        return state
+    # An arm that the drive did not lead stiffly need not be where its set-point is: it is led from where it is.
+    goes_on = wanted.mode is state.help.mode or min(state.share) >= 1.0
+    return replace(
+        state,
+        help=assistance.chosen(state.help, wanted.mode, wanted.level),
+        following=state.following and goes_on,
+    )
+
+
+def put_in(state: SafetyState, reading: DriveReading, now_s: float) -> SafetyState:
     """Somebody has put an arm in: what is held from now on is where it lies, not where the last one lay."""
-    expected = tuple(motion.angle_rad for motion in state.motions)
-    return replace(state, motions=tuple(map(Motion, evidence.sound(reading, expected).angle_rad)))
+    return replace(state, motions=tuple(map(Motion, measured.sound(reading, state.angle_rad, now_s).angle_rad)))
 
 
 def step(
@@ -74,17 +70,34 @@ def step(
 ) -> tuple[SafetyState, DriveCommand]:
     """One tick: judge, change state where that is due, move the set-points inside every limit."""
     elapsed_s = 0.0 if state.last_s is None else max(now_s - state.last_s, 0.0)
-    expected = tuple(motion.angle_rad for motion in state.motions)
-    inputs = replace(inputs, reading=evidence.sound(inputs.reading, expected))
+    dt_s = min(max(elapsed_s, SHORTEST_STEP_S), LONGEST_STEP_S)
+    inputs = replace(inputs, reading=measured.sound(inputs.reading, state.angle_rad, now_s))
     target = evidence.usable(inputs.target)
     free = evidence.free_speed(target, inputs.evidence_age_s, config)
-    state = _judged(state, inputs, target, free, elapsed_s, config)
-    state = replace(state, gate=gate.watch(state.gate, state.facts, config, now_s), last_s=now_s)
-    dt_s = min(max(elapsed_s, SHORTEST_STEP_S), LONGEST_STEP_S)
-    if state.gate.state is DriveState.ENGAGED and target is not None:
-        begun = state if state.following else _begun(state, inputs, evidence.distance_rad(target, inputs, free), config)
-        return _follow(begun, inputs, target, free, dt_s, config)
-    return _rest(replace(state, following=False, blend=0.0), inputs, dt_s)
+    state = _judged(_watched(state, inputs, elapsed_s), inputs, target, free, elapsed_s, config)
+    state = _yielding(replace(state, gate=gate.watch(state.gate, state.facts, config, now_s), last_s=now_s), inputs)
+    if state.gate.state is not DriveState.ENGAGED:
+        return _rest(state, inputs, dt_s)
+    if not state.facts.leads:
+        return _told(set_points.left_free(state, inputs), inputs, dt_s, ())
+    if target is None:  # cannot be: a lost target is no state to be engaged in
+        return _rest(state, inputs, dt_s)
+    state, clamped = set_points.led(state, inputs, target, free, dt_s, config)
+    return _told(state, inputs, dt_s, clamped)
+
+
+# ---------------------------------------------------------------- judging
+
+
+def _watched(state: SafetyState, inputs: SafetyInputs, elapsed_s: float) -> SafetyState:
+    """What has to last to count: resistance, and a joint that does not follow."""
+    led = state.gate.state is not DriveState.ENGAGED or _leads(state, inputs)
+    return replace(
+        state,
+        # Whom the drive does not lead cannot resist it; a wall is leant on.
+        strained_s=resistance.strained(state.strained_s, inputs, state.velocity_rad_s, elapsed_s) if led else ZERO,
+        astray_s=measured.astray(state.astray_s, inputs, state.angle_rad, state.share, elapsed_s),
+    )
 
 
 def _judged(
@@ -103,17 +116,36 @@ def _judged(
     lost = evidence.lost(target, inputs.evidence_age_s, free, config)
     if not lost and frozen_s > (config.resume_within_s if engaged else 0.0):
         lost = "The healthy arm's position is too uncertain."
-    blockers = evidence.blockers(target, inputs, free, config)
-    if not state.at_rest and not engaged:
-        blockers = (*blockers, "The exoskeleton is still coming to rest.")
     facts = Facts(
-        blockers,
-        evidence.fault(inputs, engaged or state.gate.state is DriveState.HOLD),
-        _silence(inputs, elapsed_s, config),
-        lost,
-        state.at_rest and evidence.near(target, inputs, free, config),
+        blockers=_blockers(state, inputs),
+        fault=_fault(state, inputs),
+        silence=_silence(inputs, elapsed_s, config),
+        give_way=resistance.give_way(state.strained_s, inputs, state.share),
+        lost=lost,
+        far=evidence.far(target, inputs, free, config),
+        leads=_leads(state, inputs),
+        can_comply=inputs.device.can_comply,
+        near=state.at_rest and evidence.near(target, inputs, free, config),
     )
     return replace(state, facts=facts, frozen_s=frozen_s, speed=free)
+
+
+def _leads(state: SafetyState, inputs: SafetyInputs) -> bool:
+    return state.help.mode is not Assistance.FREE or not inputs.device.can_comply
+
+
+def _fault(state: SafetyState, inputs: SafetyInputs) -> str:
+    """A waiting arm may be moved by hand; one that moves or is held is watched."""
+    watched = state.gate.state in (DriveState.ENGAGED, DriveState.HOLD)
+    return inputs.reading.fault or (measured.fault(inputs, state.astray_s, state.share) if watched else "")
+
+
+def _blockers(state: SafetyState, inputs: SafetyInputs) -> tuple[str, ...]:
+    """What forbids motion to begin, besides what may pass by itself, in plain words (SR-10)."""
+    found = inputs.blockers or measured.outside_range(inputs)
+    if not state.at_rest and state.gate.state is not DriveState.ENGAGED:
+        return (*found, "The exoskeleton is still coming to rest.")
+    return found
 
 
 def _silence(inputs: SafetyInputs, elapsed_s: float, config: GateConfig) -> str:
@@ -121,76 +153,57 @@ def _silence(inputs: SafetyInputs, elapsed_s: float, config: GateConfig) -> str:
         return inputs.interrupted
     if inputs.service_age_s > config.heartbeat_s:
         return "The service is silent; nobody could be heard."
+    if not inputs.authority:
+        return "Nobody who is in charge is connected."
     return f"The control loop stood still for {elapsed_s:.2f} s." if elapsed_s > config.stale_s else ""
 
 
-def _begun(state: SafetyState, inputs: SafetyInputs, apart_rad: Joints, config: GateConfig) -> SafetyState:
-    """The first set-point is where the arm is; the further the target, the longer the way there (SR-6)."""
-    here = inputs.reading.angle_rad
-    return replace(
-        state,
-        motions=tuple(Motion(angle) for angle in here),
-        following=True,
-        blend=0.0,
-        blend_over_s=max(config.blend_s, max(apart_rad) / config.blend_rad_s),
-        blend_from=here,
-        thaw=ONE,
-    )
+def _yielding(state: SafetyState, inputs: SafetyInputs) -> SafetyState:
+    if not state.gate.compliant:
+        return replace(state, yielded_at=None)
+    return state if state.yielded_at is not None else replace(state, yielded_at=inputs.reading.angle_rad)
 
 
-def _follow(
-    state: SafetyState,
-    inputs: SafetyInputs,
-    target: JointTarget,
-    free: Joints,
-    dt_s: float,
-    config: GateConfig,
-) -> tuple[SafetyState, DriveCommand]:
-    blend = min(state.blend + dt_s / state.blend_over_s, 1.0)
-    share = dt_s / config.blend_s
-    thaw = tuple(min(thawed + share, 1.0) if speed else 0.0 for thawed, speed in zip(state.thaw, free, strict=True))
-    speed = tuple(f * t for f, t in zip(free, thaw, strict=True))
-    eased = blend * blend * (3 - 2 * blend)
-    motions, clamped = [], []
-    for i, (motion, box) in enumerate(zip(state.motions, inputs.boxes, strict=True)):
-        goal = state.blend_from[i] + eased * (target.angle_rad[i] - state.blend_from[i])
-        motions.append(towards(motion, goal, eased * target.velocity_rad_s[i], box, speed[i] * target.freedom[i], dt_s))
-        clamped += _clamped(EXO_JOINTS[i], goal, free[i], box)
-    state = replace(state, motions=tuple(motions), blend=blend, thaw=thaw, speed=speed)
-    return state, _command(DriveMode.FOLLOW, state, "", tuple(clamped))
-
-
-def _clamped(joint: str, goal_rad: float, free: float, box: Box) -> list[str]:
-    words = []
-    if not box.low_rad <= goal_rad <= box.high_rad:
-        words.append(f"{joint}: at the end of its range")
-    if free < 1.0:
-        words.append(f"{joint}: {'slowed' if free else 'held'}, its target is uncertain or old")
-    return words
+# ---------------------------------------------------------------- the command
 
 
 def _rest(state: SafetyState, inputs: SafetyInputs, dt_s: float) -> tuple[SafetyState, DriveCommand]:
-    """Come to rest at full deceleration, then hold; before anything was enabled, hold where the arm is."""
-    if not state.at_rest:
-        motions = tuple(to_rest(motion, box, dt_s) for motion, box in zip(state.motions, inputs.boxes, strict=True))
-    elif state.gate.state in (DriveState.OFF, DriveState.READY) and not state.facts.fault:
-        motions = tuple(map(_kept, state.motions, inputs.reading.angle_rad))
-    else:
-        motions = state.motions
-    state = replace(state, motions=motions)
-    return state, _command(DriveMode.HOLD if state.at_rest else DriveMode.FOLLOW, state, state.gate.reason, ())
+    state = set_points.rested(state, inputs, dt_s)
+    soft = _soft(state, inputs)
+    state = replace(state, help=assistance.at_rest(state.help, soft, dt_s))
+    mode = DriveMode.HOLD if state.at_rest else DriveMode.FOLLOW
+    return _commanded(mode, state, inputs, soft, state.gate.reason, ())
 
 
-def _kept(motion: Motion, measured_rad: float) -> Motion:
-    """Where a joint is held; follows the arm only if somebody moves it, or its weight would pull it down bit by bit."""
-    return Motion(measured_rad) if abs(measured_rad - motion.angle_rad) > MOVED_BY_HAND_RAD else motion
+def _soft(state: SafetyState, inputs: SafetyInputs) -> tuple[bool, ...]:
+    """Which joints are held softly (SR-7, SR-18)."""
+    if state.gate.compliant:
+        return (True,) * JOINT_COUNT
+    stopped = state.gate.state in (DriveState.STOPPED, DriveState.FAULT)
+    return tuple(stopped and soft for soft in inputs.device.soft_stop)
 
 
-def _command(mode: DriveMode, state: SafetyState, reason: str, clamped: tuple[str, ...]) -> DriveCommand:
-    return DriveCommand(
-        mode,
-        tuple(motion.angle_rad for motion in state.motions),
-        tuple(motion.velocity_rad_s for motion in state.motions),
-        reason,
-        clamped,
-    )
+def _told(
+    state: SafetyState, inputs: SafetyInputs, dt_s: float, clamped: tuple[str, ...]
+) -> tuple[SafetyState, DriveCommand]:
+    error_rad = tuple(m - s for m, s in zip(inputs.reading.angle_rad, state.angle_rad, strict=True))
+    state = replace(state, help=assistance.helped(state.help, error_rad, dt_s))
+    return _commanded(DriveMode.FOLLOW, state, inputs, (False,) * JOINT_COUNT, "", clamped)
+
+
+def _commanded(
+    mode: DriveMode,
+    state: SafetyState,
+    inputs: SafetyInputs,
+    soft: tuple[bool, ...],
+    reason: str,
+    clamped: tuple[str, ...],
+) -> tuple[SafetyState, DriveCommand]:
+    """The command; a drive that cannot comply is told nothing of softness, and is not given less than it needs."""
+    walls = softness.wall(inputs)
+    if not inputs.device.can_comply:
+        state, soft = replace(state, help=replace(state.help, share=ONE)), (False,) * JOINT_COUNT
+    state = replace(state, share=tuple(map(max, state.help.share, walls)))
+    bound_nm = softness.torque_nm(inputs, soft, walls)
+    command = DriveCommand(mode, state.angle_rad, state.velocity_rad_s, reason, clamped, state.share, bound_nm)
+    return state, command

@@ -18,7 +18,7 @@ from fusion.virtual_patient.anatomy import ArmPose
 from fusion.virtual_patient.patient import PoseGoal, VirtualPatient
 from fusion.virtual_patient.trial import sensors_for
 from server.config import StationConfig
-from server.messages import AnyEvent, Heartbeat, LiveTick, OpenSession, Stop, Wish, WishAnswer
+from server.messages import AnyEvent, Heartbeat, LiveTick, OpenSession, Pain, Stop, Wish, WishAnswer
 from server.station.demonstration import Demonstration
 from server.station.exo.simulated import SimulatedDrive
 from server.station.loop import Loop
@@ -54,10 +54,10 @@ class ScriptedMailbox:
         self.paused = False
 
     def stops(self) -> list[Wish]:
-        return self._taken(lambda wish: isinstance(wish, Stop))
+        return self._taken(lambda wish: isinstance(wish, Stop | Pain))
 
     def wishes(self) -> list[Wish]:
-        return self._taken(lambda wish: not isinstance(wish, Stop))
+        return self._taken(lambda wish: not isinstance(wish, Stop | Pain))
 
     def publish(self, tick: bytes) -> None:
         self.published += 1

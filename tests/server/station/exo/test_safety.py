@@ -18,13 +18,15 @@ from server.station.exo.evidence import SafetyInputs
 from server.station.exo.gate import GateState
 from server.station.exo.mapping import JointTarget
 from server.station.exo.patient_range import boxes, inside_device, refused
-from server.station.exo.safety import SafetyState
+from server.station.exo.safety_state import SafetyState
 from server.station.exo.simulated import AT_REST, SimulatedDrive
+from server.station.exo.softness import device_of
 
 STATION = StationConfig()
 CONFIG = STATION.gate
 LIMITS = inside_device(patient_limits(), STATION.device)
 BOXES = boxes(LIMITS, CONFIG)
+DEVICE = device_of(STATION.exoskeleton, can_comply=True)
 DT_S = 0.01
 FREE = (1.0,) * 4
 SURE = (0.1,) * 4
@@ -52,10 +54,12 @@ class Rig:
     reading: DriveReading = field(default_factory=lambda: DriveReading(0.0, AT_REST, ZERO, ZERO))
     config: GateConfig = CONFIG
 
-    def tick(self, wanted: JointTarget | None, age_s: float = 0.0, **change: object) -> DriveCommand:
+    def tick(
+        self, wanted: JointTarget | None, age_s: float = 0.0, reading: DriveReading | None = None, **change: object
+    ) -> DriveCommand:
         self.t_s += DT_S
-        self.reading = self.drive.read(self.t_s)
-        inputs = SafetyInputs(self.reading, wanted, age_s, 0.0, LIMITS, BOXES)
+        self.reading = self.drive.read(self.t_s) if reading is None else replace(reading, t_s=self.t_s)
+        inputs = SafetyInputs(self.reading, wanted, age_s, 0.0, LIMITS, BOXES, authority="therapist", device=DEVICE)
         self.state, self.command = safety.step(self.state, replace(inputs, **change), self.config, self.t_s)
         self.drive.command(self.command, self.t_s)
         return self.command
@@ -177,19 +181,22 @@ def test_sr2_nan_infinity_and_wrong_lengths_are_refused_and_hold(part: str, wron
 
 
 @pytest.mark.parametrize(
-    "reading",
+    ("reading", "word"),
     [
-        DriveReading(0.0, (nan, 0.3, 0.0, 0.6), ZERO, ZERO),
-        DriveReading(0.0, AT_REST[:3], ZERO, ZERO),
-        DriveReading(0.0, AT_REST, (9.0, 0.0, 0.0, 0.0), ZERO),
-        DriveReading(0.0, (0.6, 2.5, 0.0, 0.6), ZERO, ZERO),
-        DriveReading(0.0, AT_REST, ZERO, ZERO, fault="The motor is hot."),
+        (DriveReading(0.0, (nan, 0.3, 0.0, 0.6), ZERO, ZERO), "not usable"),
+        (DriveReading(0.0, AT_REST[:3], ZERO, ZERO), "not usable"),
+        (DriveReading(0.0, AT_REST, ZERO, ZERO, interaction_nm=(nan,) * 4), "not usable"),
+        (DriveReading(0.0, AT_REST, (9.0, 0.0, 0.0, 0.0), ZERO), "plane was measured moving faster"),
+        (DriveReading(0.0, (0.6, 2.5, 0.0, 0.6), ZERO, ZERO), "elevation was measured outside"),
+        (DriveReading(0.0, AT_REST, ZERO, (0.0, 0.0, 0.0, 40.0)), "elbow was measured using more torque"),
+        (DriveReading(0.0, AT_REST, ZERO, ZERO, fault="The motor is hot."), "motor is hot"),
     ],
 )
-def test_sr2_a_measured_state_outside_its_limits_is_a_latched_fault(reading: DriveReading) -> None:
+def test_sr2_a_measured_state_outside_its_limits_is_a_latched_fault(reading: DriveReading, word: str) -> None:
     rig = engaged(seconds=0.1)
     rig.tick(target(), reading=reading)
     assert rig.now is DriveState.FAULT
+    assert word in rig.state.gate.reason
     assert all(map(isfinite, rig.command.angle_rad))
     rig.run(3.0, target())
     assert rig.now is DriveState.FAULT
@@ -372,7 +379,7 @@ def test_an_arm_that_is_put_in_after_a_stop_is_not_pulled_to_where_the_last_one_
     assert rig.wish(Stop(number=1, reason="pain")) == ""
     rig.run(0.5, target())
     rig.drive.fit(LIMITS)
-    rig.state = safety.put_in(rig.state, rig.drive.read(rig.t_s))
+    rig.state = safety.put_in(rig.state, rig.drive.read(rig.t_s), rig.t_s)
     rig.run(0.5, target())
     assert rig.command.angle_rad == pytest.approx(AT_REST, abs=1e-3)
     assert max(map(abs, rig.reading.velocity_rad_s)) < 0.1
