@@ -11,6 +11,7 @@ from server.station.exo.driver import Drive
 
 DRIVES = {
     "simulated": ("server.station.exo.simulated", "SimulatedDrive"),
+    "cia402": ("server.station.exo.cia402", "Cia402Drive"),
     "rosbridge": ("server.station.exo.rosbridge.drive", "RosbridgeDrive"),
 }
 """Name to module and class; the class is made from an `Exoskeleton`."""

@@ -1,0 +1,270 @@
+"""The exoskeleton on a CANopen bus: opened and checked, commanded and read once per tick, closed holding."""
+
+from __future__ import annotations
+
+import logging
+import time
+from collections.abc import Iterable
+from concurrent.futures import Future, ThreadPoolExecutor
+from math import isinf
+from types import TracebackType
+from typing import Self
+
+import numpy as np
+
+from fusion.errors import InputError, MachineError
+from fusion.messages import Floats
+from server.exoskeleton import Exoskeleton, ExoskeletonJoint, Follows
+from server.messages import JointLimits
+from server.station.exo.cia402 import objects
+from server.station.exo.cia402.bounds import impose, patient_bounds
+from server.station.exo.cia402.bus import Bus
+from server.station.exo.cia402.faults import words
+from server.station.exo.cia402.link import Link, Measured
+from server.station.exo.cia402.opening import SILENT_AFTER_BEATS, expect_station, history, open_node, start_node
+from server.station.exo.cia402.pdo import load
+from server.station.exo.cia402.sdo import Parameters, Place
+from server.station.exo.cia402.setpoint import SetPoint
+from server.station.exo.cia402.states import State, Wanted, controlword
+from server.station.exo.cia402.watch import not_enabled, trouble
+from server.station.exo.driver import WATCHDOG_S, DriveCommand, DriveReading
+from server.station.exo.joint_map import JointMap
+
+log = logging.getLogger(__name__)
+
+POWER_WITHIN_S = 1.0
+"""From the first command, or a person's reset, to every drive in operation."""
+STAND_WITHIN_S = 0.5
+"""At the end: from quick stop to every drive standing."""
+FULLEST = 0.8
+"""Share of the bus that a cycle may take."""
+
+
+class Cia402Drive:
+    """A device of CiA 402 drives.
+
+    A fault of one drive stops all of them by their own quick stop, powered and holding, until `reset`.
+
+    Args:
+        exoskeleton: its joints, each with a node of its own.
+
+    Raises:
+        InputError: joints, nodes and bus do not go together; names the key and what was expected.
+    """
+
+    name = "cia402"
+
+    def __init__(self, exoskeleton: Exoskeleton) -> None:
+        check(exoskeleton)
+        self._exoskeleton, self._settings = exoskeleton, exoskeleton.cia402
+        self._map = JointMap(exoskeleton)
+        moved = [joint for joint in exoskeleton.joints if joint.follows is not Follows.NONE]
+        self.can_comply = all(joint.name in self._settings.carry_nm for joint in moved)
+        self._errands = ThreadPoolExecutor(1, "canopen errand")
+        self._fitting: Future[None] | None = None
+        self._fault, self._wanted, self._powered = "", Wanted.ENABLED, False
+        self._asked_s: float | None = None
+        self._told_s: float | None = None
+
+    # ---------------------------------------------------------------- open and close
+
+    def __enter__(self) -> Self:
+        self._bus = Bus(self._settings)
+        joints = self._exoskeleton.joints
+        self._links = [Link(joint, self._bus) for joint in joints]
+        self._nodes = [Parameters(Place(i, joint), self._bus.sdo(joint.node)) for i, joint in enumerate(joints)]
+        self._bus.start()
+        try:
+            self._units = [open_node(node, self._bus, self._settings) for node in self._nodes]
+            for node, link in zip(self._nodes, self._links, strict=True):
+                self._meet(node, link)
+        except BaseException:
+            self._errands.shutdown()
+            self._bus.close()
+            raise
+        self._set_point = SetPoint.standing(self._joints_rad())
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """Every drive makes its quick stop and goes on holding, powered, without the station."""
+        self._errands.shutdown(cancel_futures=True)
+        self._wanted = Wanted.STANDING
+        end_s = time.monotonic() + STAND_WITHIN_S
+        while any(link.state is State.ENABLED for link in self._links) and time.monotonic() < end_s:
+            self._send([joint.torque_nm for joint in self._exoskeleton.joints])
+            time.sleep(self._settings.period_s)
+        self._release()
+        self._bus.close()
+
+    def _meet(self, node: Parameters, link: Link) -> None:
+        """Let its data flow, and remember where it stands until it says so itself."""
+        start_node(node, link, self._bus)
+        link.measured = Measured(node.read(objects.STATUSWORD), node.read(objects.POSITION))
+        _note(node)
+
+    def _release(self) -> None:
+        """Drives that stand need not expect the station any longer; one that does not stand goes on doing so."""
+        for node, link in zip(self._nodes, self._links, strict=True):
+            if link.state is State.QUICK_STOP and not trouble(link, *self._patience, time.monotonic()):
+                try:
+                    expect_station(node, self._settings, 0)
+                except MachineError as refused:
+                    log.warning("%s", refused)
+
+    # ---------------------------------------------------------------- a tick
+
+    def read(self, now_s: float) -> DriveReading:
+        """The measurement that answered the newest SYNC."""
+        self._judge(now_s)
+        links = list(zip(self._links, self._units, strict=True))
+        return DriveReading(
+            now_s,
+            self._map.anatomical_rad(self._joints_rad()),
+            self._map.anatomical_rad_s([units.rad(link.details.velocity) for link, units in links]),
+            self._map.anatomical_nm([units.nm(link.measured.torque) for link, units in links]),
+            self._fault,
+        )
+
+    def command(self, command: DriveCommand, now_s: float) -> None:
+        """Send every joint its set-point, then the SYNC that lets all take it over, then the station's heartbeat."""
+        elapsed_s = 0.0 if self._told_s is None else max(now_s - self._told_s, 0.0)
+        self._told_s = now_s
+        share = self._map.spread(command.share, 1.0)
+        bound_nm = self._map.spread(command.torque_nm, float("inf"))
+        measured = self._joints_rad()
+        if not self._powered or self._fault or self._is_fitting():
+            self._set_point = SetPoint.standing(measured)
+        else:
+            wanted = self._map.joints_rad(command.angle_rad)
+            self._set_point = self._set_point.towards(command.mode, wanted, elapsed_s).yielding(share < 1, measured)
+        self._send([self._limit_nm(*each) for each in zip(self._exoskeleton.joints, share, bound_nm, strict=True)])
+
+    def fit(self, limits: tuple[JointLimits, ...]) -> None:
+        """Tell the drives the patient's range, in a thread of its own; until they have taken it, nothing moves.
+
+        The range is written into the drives (SR-1) and read back; a drive that does not take it is a fault.
+        """
+        self._set_point = SetPoint.standing(self._joints_rad())
+        self._fitting = self._errands.submit(self._impose, limits)
+
+    def reset(self) -> None:
+        """A person asks: leave the fault, and hold where the joints stand. Motion is another wish (SR-5)."""
+        for link in self._links:
+            link.emergency = 0
+        if self._fault:
+            self._fault, self._wanted, self._powered, self._asked_s = "", Wanted.RESET, False, None
+            self._bus.trouble, self._fitting = "", None
+
+    # ---------------------------------------------------------------- what is right and wrong
+
+    @property
+    def _patience(self) -> tuple[float, int]:
+        """A heartbeat's greatest age, and how many SYNCs may go unanswered."""
+        return SILENT_AFTER_BEATS * self._settings.heartbeat_s, round(WATCHDOG_S / self._settings.period_s)
+
+    def _judge(self, now_s: float) -> None:
+        self._asked_s = now_s if self._asked_s is None else self._asked_s
+        if self._fault:
+            return
+        found = self._bus.trouble or self._refused_range() or self._of_links(now_s)
+        if found:
+            self._fault, self._wanted, self._powered = found, Wanted.STANDING, False
+            log.error("%s", found)
+            self._errands.submit(self._note_all)
+
+    def _of_links(self, now_s: float) -> str:
+        found = _first(trouble(link, *self._patience, now_s) for link in self._links)
+        waiting = [link for link in self._links if link.state is not State.ENABLED]
+        if self._powered:
+            return found or _first(map(not_enabled, waiting))
+        if not waiting and not found:
+            self._powered, self._wanted = True, Wanted.ENABLED
+            self._set_point = SetPoint.standing(self._joints_rad())
+        if self._wanted is Wanted.RESET and not any(link.state is State.FAULT for link in self._links):
+            self._wanted = Wanted.ENABLED
+        overdue = self._asked_s is not None and now_s - self._asked_s > POWER_WITHIN_S
+        faulty = found if self._wanted is not Wanted.RESET else ""
+        return faulty or (_first(map(not_enabled, waiting)) if overdue else "")
+
+    def _refused_range(self) -> str:
+        if self._fitting is None or not self._fitting.done():
+            return ""
+        error = self._fitting.exception()
+        return str(error) if error else ""
+
+    def _is_fitting(self) -> bool:
+        return self._fitting is not None and not self._fitting.done()
+
+    # ---------------------------------------------------------------- what goes out
+
+    def _joints_rad(self) -> Floats:
+        measured = [units.rad(link.measured.position) for link, units in zip(self._links, self._units, strict=True)]
+        return np.array(measured)
+
+    def _send(self, limits_nm: list[float]) -> None:
+        every = zip(self._links, self._units, self._set_point.joints_rad.tolist(), limits_nm, strict=True)
+        for link, units, angle, limit_nm in every:
+            inside = min(max(angle, link.joint.min_rad), link.joint.max_rad)
+            link.send(controlword(link.state, self._wanted), units.counts(inside), units.per_mille(limit_nm))
+        self._bus.sync()
+        self._bus.beat()
+
+    def _limit_nm(self, joint: ExoskeletonJoint, share: float, bound_nm: float) -> float:
+        """The most that the motor may use: what carries the arm, and what it may add (docs/cia402.md)."""
+        carry_nm = self._settings.carry_nm.get(joint.name)
+        if carry_nm is None or (share >= 1 and isinf(bound_nm)):
+            return joint.torque_nm
+        return min(joint.torque_nm, carry_nm + min(bound_nm, share * joint.torque_nm))
+
+    # ---------------------------------------------------------------- errands, outside the tick
+
+    def _impose(self, limits: tuple[JointLimits, ...]) -> None:
+        every = zip(self._nodes, patient_bounds(self._exoskeleton, limits), self._units, strict=True)
+        for node, bounds, units in every:
+            impose(node, bounds, units, "the patient's range")
+
+    def _note_all(self) -> None:
+        for node in self._nodes:
+            _note(node)
+
+
+def check(exoskeleton: Exoskeleton) -> None:
+    """Refuse joints, nodes and a bus that do not go together.
+
+    Raises:
+        InputError: names the key and what was expected.
+    """
+    settings, seen = exoskeleton.cia402, {exoskeleton.cia402.own_node: "cia402.own_node"}
+    for index, joint in enumerate(exoskeleton.joints):
+        key = f"joints[{index}].node"
+        if joint.node == 0 or joint.node in seen:
+            taken = f", {seen[joint.node]} has it" if joint.node in seen else ""
+            raise InputError(f"{key} = {joint.node} ('{joint.name}'){taken}", "a node of its own, 1 to 127")
+        seen[joint.node] = key
+    strangers = sorted(set(settings.carry_nm) - {joint.name for joint in exoskeleton.joints})
+    if strangers:
+        raise InputError(f"cia402.carry_nm names '{strangers[0]}'", "names of joints")
+    full = load(len(exoskeleton.joints), settings.period_s, settings.bitrate)
+    if full > FULLEST:
+        raise InputError(
+            f"cia402.bitrate: {len(exoskeleton.joints)} joints every {settings.period_s} s fill {full:.0%} of the bus",
+            f"at most {FULLEST:.0%}",
+            "a higher bit rate, or a longer cia402.period_s with a slower station.rate_hz",
+        )
+
+
+def _first(said: Iterable[str]) -> str:
+    return next((each for each in said if each), "")
+
+
+def _note(node: Parameters) -> None:
+    """Write what the drive remembers of errors into the log."""
+    try:
+        register, newest = history(node)
+    except MachineError as silent:
+        log.warning("%s", silent)
+        return
+    if register or newest:
+        log.warning("%s remembers: register %02Xh, %s", node.place, register, words(newest) if newest else "no error")
