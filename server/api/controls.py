@@ -13,7 +13,6 @@ from server.api.journal import Journal
 from server.api.measured_range import RangeMeter, moves_freely
 from server.api.station_link import StationLink
 from server.messages import (
-    DriveState,
     Enable,
     FollowBody,
     Hold,
@@ -102,10 +101,8 @@ class Controls:
         self._link.beat()
         text = f"{client.account} took over from {before.account if before else 'nobody'}"
         self._journal.note(session_id, "taken over", text, by=client.account)
-        tick = self._link.latest
-        if tick is not None and tick.state is DriveState.ENGAGED:
-            with suppress(RefusedError):  # it may have come to rest meanwhile
-                await self._link.ask(_wish_for("hold", client.account))
+        with suppress(RefusedError):  # most often it is at rest, and then there is nothing to hold
+            await self._link.ask(lambda number: Hold(number=number, reason=f"{text}."))
         return self.authority()
 
     def authority(self) -> AuthorityPublic | None:

@@ -9,10 +9,10 @@ from alembic.autogenerate import compare_metadata
 from alembic.migration import MigrationContext
 from sqlalchemy import inspect
 
-from db.account import Account
+from db.account import Account, Role
 from db.database import open_database
 from db.errors import CannotOpenError, NotStoredError, TooNewError
-from db.limits import JointRange
+from db.limits import JointRange, PatientLimits
 from db.migrate import downgrade, upgrade
 from db.patient import PatientCreate, PatientUpdate
 from db.queries import accounts, patients, sessions
@@ -64,6 +64,31 @@ def test_down_to_nothing_and_up_again(path):
     engine.dispose()
     upgrade(str(path))
     open_database(path).close()
+
+
+def test_rows_from_before_get_cautious_limits_that_nobody_has_signed_for(path):
+    upgrade(str(path), "0001")
+    with sqlite3.connect(path) as raw:
+        raw.execute("INSERT INTO account (name, created_at) VALUES ('lin', '2026-01-01')")
+        raw.execute(
+            "INSERT INTO patient (name, healthy_side, notes, passive_range, created_by_id, created_at, updated_at) "
+            "VALUES ('Wang', 'right', '', '{}', 1, '2026-01-01', '2026-01-01')"
+        )
+        raw.execute(
+            "INSERT INTO therapy_session (patient_id, therapist_id, affected_side, game, seed, level, started_at, "
+            "status, limits, version, recording, measured) "
+            "VALUES (1, 1, 'left', 'reach', 7, 0.3, '2026-01-01', 'ended', '{\"joints\": []}', '0.1.0', '', 1)"
+        )
+    raw.close()
+    database = open_database(path)
+    with database.session() as session:
+        (patient,) = patients.list_patients(session)
+        assert patient.limits == PatientLimits()
+        assert (patient.assistance, patient.limits_set_by, patient.limits_set_at) == ("passive", "", None)
+        assert accounts.find_account(session, "lin").role is Role.ADMIN
+        (old,) = sessions.history_of(session, patient.id)
+        assert (old.assistance, old.assist_level, old.limits.set_by) == ("passive", 1.0, "")
+    database.close()
 
 
 def test_what_was_stored_is_there_after_opening_again(path):

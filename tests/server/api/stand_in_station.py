@@ -7,7 +7,7 @@ import os
 import signal
 import sys
 import time
-from math import sin
+from math import cos, sin
 from pathlib import Path
 
 from fusion.recording.log import LogAbout, LogWriter
@@ -16,6 +16,7 @@ from server.channels import StationChannels, encoded
 from server.config import read_start
 from server.messages import (
     ArmView,
+    Assistance,
     BodyView,
     CloseSession,
     DriveState,
@@ -26,10 +27,12 @@ from server.messages import (
     Hold,
     LiveTick,
     OpenSession,
+    Pain,
     Reset,
     Resume,
     SensorView,
     SessionClosed,
+    SetAssistance,
     StateChanged,
     StationUp,
     Stop,
@@ -93,7 +96,7 @@ def joint_at(name, angle):
     return (sign * outward, up + lift, 2.0 - ahead)
 
 
-def tick(index, t_s, state, session, healthy_side):
+def tick(index, t_s, state, session, healthy_side, authority="", assistance=Assistance.PASSIVE, level=1.0):
     angle = 0.5 + 0.4 * sin(2 * t_s)
     joints = body(angle)
     sensor = SensorView(
@@ -114,7 +117,7 @@ def tick(index, t_s, state, session, healthy_side):
     )
     exo = ExoView(
         angle_rad=(angle, angle / 2, 0.1, 0.5),
-        velocity_rad_s=(0.0,) * 4,
+        velocity_rad_s=(0.8 * cos(2 * t_s), 0.4 * cos(2 * t_s), 0.0, 0.0),
         torque_nm=(0.0,) * 4,
         command_rad=(angle, angle / 2, 0.1, 0.5),
         command_velocity_rad_s=(0.0,) * 4,
@@ -122,6 +125,10 @@ def tick(index, t_s, state, session, healthy_side):
         speed_factor=1.0,
         blend=1.0,
         fault="",
+        interaction_nm=(0.5, 0.0, 0.0, 1.0),
+        share=(1.0,) * 4,
+        assistance=assistance,
+        level=level,
     )
     return LiveTick(
         index=index,
@@ -132,6 +139,7 @@ def tick(index, t_s, state, session, healthy_side):
         may_enable=state is DriveState.READY,
         blockers=(),
         session=session,
+        authority=authority,
         healthy_side=healthy_side,
         sensors=(sensor,),
         body=BodyView(
@@ -163,6 +171,7 @@ class Station:
     def __init__(self, start):
         self.channels = StationChannels(Path(start.channels))
         self.state, self.session, self.healthy_side, self.log = DriveState.OFF, None, Side.RIGHT, None
+        self.authority, self.assistance, self.level = "", Assistance.PASSIVE, 1.0
         self.greet()
 
     def greet(self):
@@ -186,8 +195,16 @@ class Station:
             self.channels.tell(encoded(changed))
 
     def take(self, wish):
-        if isinstance(wish, Heartbeat) or (self.session and self.session.patient == "mute"):
+        if isinstance(wish, Heartbeat):
+            self.authority = wish.authority
+            if not self.authority and self.state is DriveState.ENGAGED:
+                self.go(DriveState.HOLD, "nobody who is in charge is connected")
+        elif self.session and self.session.patient == "mute":
             return
+        else:
+            self.obey(wish)
+
+    def obey(self, wish):
         if isinstance(wish, OpenSession):
             self.open(wish)
         elif isinstance(wish, CloseSession):
@@ -195,7 +212,13 @@ class Station:
         elif isinstance(wish, Stop):
             self.go(DriveState.STOPPED, wish.reason)
             self.answer(wish)
+        elif isinstance(wish, Pain):
+            self.go(DriveState.HOLD, wish.reason)
+            self.answer(wish)
         elif isinstance(wish, FollowBody):
+            self.answer(wish)
+        elif isinstance(wish, SetAssistance):
+            self.assistance, self.level = wish.mode, wish.level
             self.answer(wish)
         else:
             self.move(wish)
@@ -205,6 +228,7 @@ class Station:
             self.answer(wish, False, "the drive is being serviced")
             return
         self.session, self.healthy_side = wish, wish.healthy_side
+        self.assistance, self.level = wish.assistance, wish.level
         self.log = LogWriter(Path(wish.recording), LogAbout(name=wish.session))
         self.go(DriveState.READY, "a session is open")
         self.answer(wish)
@@ -228,7 +252,9 @@ class Station:
             sys.stderr.flush()
             os._exit(3)
         needed, after = ALLOWED[type(wish)]
-        if self.state is needed:
+        if isinstance(wish, Enable | Resume) and not self.authority:
+            self.answer(wish, False, "nobody who is in charge is connected")
+        elif self.state is needed:
             self.go(after, "somebody wished it")
             self.answer(wish)
         else:
@@ -238,7 +264,9 @@ class Station:
         for wish in (*self.channels.stops(), *self.channels.wishes()):
             self.take(wish)
         session = self.session.session if self.session else ""
-        made = tick(index, time.monotonic(), self.state, session, self.healthy_side)
+        made = tick(
+            index, time.monotonic(), self.state, session, self.healthy_side, self.authority, self.assistance, self.level
+        )
         if self.log:
             self.log.tick(encoded(made), made.t_s)
         self.channels.publish(encoded(made))

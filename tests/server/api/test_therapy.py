@@ -33,16 +33,33 @@ def until(condition):
 
 
 @pytest.fixture
-def session(therapist, new_patient):
-    """An open session; ended afterwards if the test did not."""
-    made = opened(therapist, new_patient()).raise_for_status().json()
+def open_one(shared, therapist, new_patient, look):
+    """Opens a session for a patient of that form, from a page that is connected; ended afterwards if it was not."""
+    page = look(shared, therapist)
+
+    def made(**patient):
+        session = opened(therapist, new_patient(**patient)).raise_for_status().json()
+        return session, page
+
     yield made
     current = therapist.get("/api/sessions/current").json()
     if current:
         end(therapist, current).raise_for_status()
 
 
-def test_a_session_runs_from_patient_to_saved_metrics(shared, therapist, new_patient):
+@pytest.fixture
+def session(open_one):
+    """An open session, whose page is in charge."""
+    return open_one()[0]
+
+
+def tick_when(page, condition):
+    """The first tick that fulfils it."""
+    return until(lambda: page.messages and condition(page.messages[-1]["tick"]) and page.messages[-1]["tick"])
+
+
+def test_a_session_runs_from_patient_to_saved_metrics(shared, therapist, new_patient, look):
+    look(shared, therapist)
     patient = new_patient("Qian")
     session = opened(therapist, patient).json()
     assert (session["status"], session["affected_side"], session["pain_before"]) == ("open", "left", 2)
@@ -115,6 +132,66 @@ def test_a_range_that_the_device_does_not_have_is_refused(therapist, new_patient
     answer = opened(therapist, new_patient("Zheng", passive_range=beyond))
     assert answer.status_code == 409
     assert "elbow" in answer.json()["detail"]["what"]
+
+
+def test_sr10_without_a_signature_for_the_limits_no_session_opens(therapist):
+    patient = therapist.post("/api/patients", json={"name": "Kong", "healthy_side": "right"}).json()
+    answer = opened(therapist, patient)
+    assert answer.status_code == 409
+    assert answer.json()["detail"]["what"] == "nobody has signed for Kong's limits"
+
+
+def test_the_sessions_limits_say_who_signed_for_them(therapist, session):
+    patient = therapist.get(f"/api/patients/{session['patient_id']}").json()
+    assert session["limits"]["set_by"] == patient["limits_set_by"] == "Dr. Lin"
+    assert session["limits"]["set_at"] == patient["limits_set_at"]
+    assert all(joint["torque_nm"] <= 15.0 and joint["resistance_nm"] <= 6.0 for joint in session["limits"]["joints"])
+
+
+def test_a_session_begins_to_help_as_the_patients_page_says(therapist, open_one):
+    session, page = open_one(assistance="assisted", assist_level_most=0.6)
+    assert (session["assistance"], session["assist_level"]) == ("assisted", 0.6)
+    exo = tick_when(page, lambda tick: tick["session"] == str(session["id"]))["exo"]
+    assert (exo["assistance"], exo["level"]) == ("assisted", 0.6)
+    shown = until(lambda: page.messages[-1]["session"])
+    assert shown["assist_level_most"] == 0.6
+
+
+def test_a_session_may_begin_to_help_otherwise_but_with_no_more_than_is_allowed(therapist, new_patient, open_one):
+    patient = new_patient(assist_level_most=0.6)
+    refused = opened(therapist, patient, assist_level=0.7)
+    assert refused.status_code == 409
+    assert "0.60" in refused.json()["detail"]["what"]
+    session = opened(therapist, patient, assistance="free", assist_level=0.2).json()
+    assert (session["assistance"], session["assist_level"]) == ("free", 0.2)
+
+
+def test_another_way_of_helping_reaches_the_arm_within_what_the_patient_is_allowed(therapist, open_one):
+    session, page = open_one(assist_level_most=0.6)
+    path = f"/api/sessions/{session['id']}/assistance"
+    refused = therapist.post(path, json={"mode": "assisted", "level": 0.7})
+    assert refused.status_code == 409
+    assert "0.60" in refused.json()["detail"]["what"]
+    assert therapist.post(path, json={"mode": "assisted", "level": 0.4}).status_code == 200
+    assert tick_when(page, lambda tick: tick["exo"]["level"] == 0.4)["exo"]["assistance"] == "assisted"
+    end(therapist, session).raise_for_status()
+    events = therapist.get(f"/api/sessions/{session['id']}/events").json()
+    (noted,) = [event["data"] for event in events if event["kind"] == "assistance"]
+    assert noted == {"mode": "assisted", "level": 0.4, "by": "Dr. Lin"}
+
+
+def test_sr18_the_range_is_measured_while_the_drive_only_carries_the_arm(therapist, session):
+    path = f"/api/sessions/{session['id']}"
+    assert therapist.get(f"{path}/measured-range").json() == {"ticks": 0, "range": None}
+    control(therapist, session, "start").raise_for_status()
+    refused = therapist.post(f"{path}/measured-range")
+    assert refused.status_code == 409
+    assert "free" in refused.json()["detail"]["what"]
+    therapist.post(f"{path}/assistance", json={"mode": "free", "level": 0.0}).raise_for_status()
+    until(lambda: therapist.post(f"{path}/measured-range").status_code == 200)
+    measured = until(lambda: (found := therapist.get(f"{path}/measured-range").json())["ticks"] > 10 and found)
+    # The paper arm's rotation and elbow do not move, so there is no whole range.
+    assert measured["range"] is None
 
 
 def test_limits_lie_inside_the_patients_range_and_the_devices(therapist, session):
