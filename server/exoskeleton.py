@@ -17,6 +17,8 @@ from server.messages import EXO_JOINTS, JointLimits
 
 Positive = Annotated[float, Meta(gt=0)]
 NodeId = Annotated[int, Meta(ge=0, le=127)]
+FAMILIES = ("simulated", "cia402", "rosbridge")
+"""Of drives: the names of `server.station.exo.drives`."""
 
 
 class Follows(StrEnum):
@@ -103,7 +105,7 @@ class Exoskeleton(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
 
     name: str
     drive: str
-    """Drive family, a name of `server.station.exo.drives`."""
+    """One of `FAMILIES`."""
     joints: tuple[ExoskeletonJoint, ...]
     cia402: Cia402Settings = Cia402Settings()
     rosbridge: RosbridgeSettings = RosbridgeSettings()
