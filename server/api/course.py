@@ -7,7 +7,7 @@ from datetime import datetime
 from math import dist
 
 from fusion.skeleton import Side
-from games.catalogue import open_game
+from games.catalogue import GAMES, open_game
 from games.game import Game, GameInput, GameSettings, GameView, Workspace
 from server.api.live import AuthorityView, SessionPhase, SessionView
 from server.api.measured_range import RangeMeter
@@ -93,6 +93,14 @@ class Course:
             assist_level_most=plan.assist_level_most,
             authority=authority,
         )
+
+
+def warm_up() -> None:
+    """Open every game once: what the first one loads and compiles must make no heartbeat late (SR-9)."""
+    shoulder, reach_rad = (0.2, 0.0, 0.0), (0.1, 1.0)
+    workspace = Workspace(Side.RIGHT, shoulder, 0.3, 0.3, reach_rad, reach_rad, reach_rad, reach_rad)
+    for name in GAMES:
+        open_game(name, workspace, 0, GameSettings())
 
 
 def counted(picture: GameView | None) -> int:

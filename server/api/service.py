@@ -8,10 +8,13 @@ from contextlib import AsyncExitStack, asynccontextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
+from fastapi.concurrency import run_in_threadpool
+
 from db.database import Database, open_database
 from server.api.auth import Auth, AuthSettings
 from server.api.authority import Authority, Presence
 from server.api.controls import Controls
+from server.api.course import warm_up
 from server.api.data_folder import DATABASE, until_station_is_gone
 from server.api.demo import Demo
 from server.api.forms import Station
@@ -78,6 +81,7 @@ async def running_service(
         link.on_tick.append(relay.take)
         stack.push_async_callback(link.close)
         await until_station_is_gone(data)
+        await run_in_threadpool(warm_up)
         left = await close_left_open(database, data)
         await link.open()
         recovery = asyncio.create_task(measure_all(therapy, left), name="recovery")
