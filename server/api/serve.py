@@ -11,6 +11,7 @@ from db.errors import DatabaseError
 from fusion.errors import MachineError
 from server.api.app import create_app
 from server.api.data_folder import data_folder, locked
+from server.api.station_link import STATION
 from server.config import Config
 
 CLOSE_WITHIN_S = 3
@@ -27,8 +28,12 @@ LOGGING = {
 }
 
 
-def run(config: Config) -> None:
+def run(config: Config, station: tuple[str, ...] = STATION) -> None:
     """Serve until somebody ends it.
+
+    Args:
+        config: of the service.
+        station: what Python is told to run as the station.
 
     Raises:
         MachineError: the port is in use, the data folder is in use, the database cannot be opened, the station does
@@ -36,7 +41,7 @@ def run(config: Config) -> None:
     """
     folder = data_folder(config)
     with locked(folder), _listening(config.host, config.port) as listener:
-        app = create_app(config, folder)
+        app = create_app(config, folder, station=station)
         server = _Server(_uvicorn_config(app, config), listener)
         try:
             server.run(sockets=[listener])

@@ -58,7 +58,7 @@ class RemoteDrive:
         exoskeleton: what the drive's process was made from too.
     """
 
-    name = "elsewhere"
+    name = "simulated"
     can_comply = True
 
     def __init__(self, exoskeleton: Exoskeleton) -> None:

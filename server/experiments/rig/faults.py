@@ -136,6 +136,7 @@ async def _disk_full(scene: Scene) -> AsyncIterator[None]:
 
 _HELD: Final = frozenset({DriveState.HOLD})
 _GOING: Final = frozenset({DriveState.ENGAGED, DriveState.HOLD})
+_UNMOVED: Final = frozenset({DriveState.ENGAGED})
 _SOON: Final = 2 * TICK_S
 """The tick that sees it, and the one that was under way."""
 
@@ -188,9 +189,9 @@ FAULTS: Final = (
     Fault("doubled", "every datagram twice", lambda scene: _wired(scene, wires.doubled, wires.doubled), _GOING),
     Fault("reordered", "datagrams in any order", partial(_wires_bent, bend=wires.reordered), _GOING),
     Fault("corrupted", "every other datagram corrupted", partial(_wires_bent, bend=wires.corrupted), _GOING),
-    Fault("clock-ahead", "wall clock set an hour ahead", partial(_clock_stepped, seconds=AN_HOUR_S), _GOING),
-    Fault("clock-back", "wall clock set back by half a second", partial(_clock_stepped, seconds=-0.5), _GOING),
-    Fault("disk-full", "disk full while recording", _disk_full, _GOING, watched_s=1.3),
+    Fault("clock-ahead", "wall clock set an hour ahead", partial(_clock_stepped, seconds=AN_HOUR_S), _UNMOVED),
+    Fault("clock-back", "wall clock set back by half a second", partial(_clock_stepped, seconds=-0.5), _UNMOVED),
+    Fault("disk-full", "disk full while recording", _disk_full, _UNMOVED, watched_s=1.3),
     Fault(
         "drive-silent",
         "the drive answers nothing any more",

@@ -13,14 +13,10 @@ from itertools import count
 from pathlib import Path
 from typing import Final
 
-import msgspec
-
 from fusion.errors import MachineError
-from server.config import SensorsConfig, StationConfig
-from server.exoskeleton import BUILT_IN
 from server.experiments.rig.drive_link import ADDRESS
 from server.experiments.rig.drive_log import DriveLog
-from server.experiments.rig.live_station import PORT, LiveStation
+from server.experiments.rig.live_station import LiveStation
 from server.experiments.rig.patient import LivePatient
 from server.experiments.rig.station_process import STEP_FILE, SteppedClock
 from server.messages import DriveState, Enable, Reset, Resume, Wish
@@ -30,9 +26,6 @@ MOVING_RAD_S: Final = 0.3
 """A fault is put in while some joint is measured faster than this."""
 ENGAGED_WITHIN_S: Final = 60.0
 SEED: Final = 3
-CONFIG: Final = StationConfig(
-    sensors=SensorsConfig(ports={PORT: 0}), exoskeleton=msgspec.structs.replace(BUILT_IN, drive="elsewhere")
-)
 _WAYS_ON: Final[dict[DriveState, Callable[[int], Wish]]] = {
     DriveState.READY: lambda number: Enable(number=number),
     DriveState.HOLD: lambda number: Resume(number=number),
@@ -93,9 +86,7 @@ async def scene(data: Path) -> AsyncIterator[Scene]:
         drive = stack.enter_context(running_drive(data))
         clock = SteppedClock(data / "clock")
         environment = {ADDRESS: str(drive.address), STEP_FILE: str(data / "clock")}
-        station = await stack.enter_async_context(
-            LiveStation(data, config=CONFIG, command=COMMAND, environment=environment)
-        )
+        station = await stack.enter_async_context(LiveStation(data, command=COMMAND, environment=environment))
         patient = stack.enter_context(LivePatient(station.port, SEED))
         answer = await station.ask(station.session(data / "session.mcap"))
         if not answer.accepted:

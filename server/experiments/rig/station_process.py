@@ -73,7 +73,7 @@ def _stepped(clock: SteppedClock, level: int, kind: int, data: bytes) -> tuple[i
 
 def main() -> int:
     """Run the station."""
-    DRIVES["elsewhere"] = ("server.experiments.rig.drive_link", "RemoteDrive")
+    DRIVES["simulated"] = ("server.experiments.rig.drive_link", "RemoteDrive")
     if STEP_FILE in os.environ:
         live_by(SteppedClock(Path(os.environ[STEP_FILE])))
     return run_station()

@@ -1,0 +1,209 @@
+"""The real service as a process, with its real station, and a therapist's page that asks and watches."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import signal
+import sys
+import time
+from collections.abc import AsyncIterator
+from contextlib import AsyncExitStack, asynccontextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Final
+
+import httpx
+import msgspec
+import psutil
+from websockets.asyncio.client import ClientConnection, connect
+from websockets.exceptions import ConnectionClosed
+
+from fusion.errors import MachineError
+from server.api.live import Screen
+from server.experiments.rig.drive_link import ADDRESS
+from server.experiments.rig.scene import DriveProcess, running_drive
+from server.messages import DriveState
+
+PAGE: Final = "therapist"
+SERVICE: Final = ("-m", "server.experiments.rig.service_process")
+START_WITHIN_S: Final = 120.0
+ENGAGED_WITHIN_S: Final = 60.0
+MOVING_RAD_S: Final = 0.2
+WAYS_ON: Final = {
+    DriveState.READY: "start",
+    DriveState.HOLD: "resume",
+    DriveState.STOPPED: "reset",
+    DriveState.FAULT: "reset",
+}
+
+
+class ShortTick(msgspec.Struct, frozen=True):
+    """Of `LiveTick`: what the page goes by."""
+
+    index: int
+    t_s: float
+    state: DriveState
+    reason: str
+    may_enable: bool
+    blockers: tuple[str, ...]
+
+
+class ShortMessage(msgspec.Struct, frozen=True):
+    """Of `LiveMessage`."""
+
+    tick: ShortTick
+
+
+_message_from = msgspec.json.Decoder(ShortMessage).decode
+
+
+def acknowledged(tick: ShortTick) -> str:
+    """What a page says that has drawn a tick."""
+    return f'{{"ack": {tick.index}, "drawn_on": "{Screen.DASHBOARD}"}}'
+
+
+@dataclass
+class LiveService:
+    """A running service and one page of it, logged in and in charge."""
+
+    process: asyncio.subprocess.Process
+    url: str
+    data: Path
+    drive: DriveProcess
+    page: httpx.AsyncClient
+    session: int = 0
+    ticks: list[ShortTick] = field(default_factory=list)
+
+    @property
+    def cookie(self) -> str:
+        """What a page of the same person sends."""
+        return "; ".join(f"{name}={value}" for name, value in self.page.cookies.items())
+
+    @property
+    def station(self) -> psutil.Process:
+        """The station's process.
+
+        Raises:
+            MachineError: there is none.
+        """
+        for child in psutil.Process(self.process.pid).children():
+            if any("station_process" in word for word in child.cmdline()):
+                return child
+        raise MachineError("the service has no station")
+
+    async def control(self, action: str) -> bool:
+        """Ask as the buttons do; whether it was granted."""
+        answer = await self.page.post(f"/api/sessions/{self.session}/control", json={"action": action})
+        return answer.status_code == httpx.codes.OK
+
+    async def engaged(self) -> None:
+        """Bring the arm to follow, as often as a busy machine makes that necessary.
+
+        Raises:
+            MachineError: it does not come to that.
+        """
+        ends_s = time.monotonic() + ENGAGED_WITHIN_S
+        while time.monotonic() < ends_s:
+            tick = self.ticks[-1]
+            if tick.state is DriveState.ENGAGED:
+                return
+            if tick.state in WAYS_ON:
+                await self.control(WAYS_ON[tick.state])
+            await asyncio.sleep(0.02)
+        raise MachineError(f"the arm does not follow: {self.ticks[-1].state} {self.ticks[-1].blockers}")
+
+    async def moving(self) -> None:
+        """Wait until the arm follows and moves.
+
+        Raises:
+            MachineError: it does not come to that.
+        """
+        ends_s = time.monotonic() + ENGAGED_WITHIN_S
+        while time.monotonic() < ends_s:
+            await self.engaged()
+            notes = self.drive.log.since(time.monotonic() - 0.02)
+            if any(note.speed_rad_s > MOVING_RAD_S for note in notes):
+                return
+            await asyncio.sleep(0.01)
+        raise MachineError("the arm does not move")
+
+    def kill(self) -> None:
+        """`kill -9`."""
+        self.process.kill()
+
+    def freeze(self) -> None:
+        """SIGSTOP."""
+        self.process.send_signal(signal.SIGSTOP)
+
+    def thaw(self) -> None:
+        """SIGCONT."""
+        self.process.send_signal(signal.SIGCONT)
+
+    async def watch(self, socket: ClientConnection) -> None:
+        """What an open page does: read, draw, acknowledge."""
+        try:
+            async for text in socket:
+                self.ticks.append(_message_from(text).tick)
+                await socket.send(acknowledged(self.ticks[-1]))
+        except ConnectionClosed:
+            return
+
+
+@asynccontextmanager
+async def live_service(data: Path) -> AsyncIterator[LiveService]:
+    """The demonstration with an open session, while the block lasts."""
+    async with AsyncExitStack() as stack:
+        drive = stack.enter_context(running_drive(data))
+        process = await _started(data, drive)
+        stack.push_async_callback(_ended, process)
+        url = await _address(process)
+        headers = {"Mirrorlimb-Client": PAGE}
+        page = httpx.AsyncClient(base_url=url, timeout=20, trust_env=False, headers=headers)
+        await stack.enter_async_context(page)
+        service = LiveService(process, url, data, drive, page)
+        patient = (await page.post("/api/demo")).raise_for_status().json()["patient"]
+        stack.push_async_callback(_cancelled, asyncio.create_task(_watched(service)))
+        await _until(lambda: service.ticks)
+        form = {"patient_id": patient["id"], "confirmed_affected_side": "left"}
+        service.session = (await page.post("/api/sessions", json=form)).raise_for_status().json()["id"]
+        yield service
+
+
+async def _watched(service: LiveService) -> None:
+    address = f"{service.url.replace('http', 'ws')}/api/stream?client={PAGE}"
+    async with connect(address, additional_headers={"Cookie": service.cookie}, proxy=None) as socket:
+        await service.watch(socket)
+
+
+async def _started(data: Path, drive: DriveProcess) -> asyncio.subprocess.Process:
+    environment = {**os.environ, ADDRESS: str(drive.address)}
+    command = (sys.executable, *SERVICE, "--data", str(data / "service"))
+    return await asyncio.create_subprocess_exec(*command, stdout=asyncio.subprocess.PIPE, env=environment)
+
+
+async def _address(process: asyncio.subprocess.Process) -> str:
+    if process.stdout is None:
+        raise MachineError("the service has no output to read its address from")
+    line = await asyncio.wait_for(process.stdout.readline(), START_WITHIN_S)
+    if not line.startswith(b"http"):
+        raise MachineError(f"the service did not start: {line.decode(errors='replace').strip()}")
+    return line.decode().strip()
+
+
+async def _ended(process: asyncio.subprocess.Process) -> None:
+    if process.returncode is None:
+        process.send_signal(signal.SIGCONT)
+        process.terminate()
+        await asyncio.wait_for(process.wait(), 20)
+
+
+async def _cancelled(task: asyncio.Task[None]) -> None:
+    task.cancel()
+    await asyncio.gather(task, return_exceptions=True)
+
+
+async def _until(right: Any, within_s: float = 20.0) -> None:
+    async with asyncio.timeout(within_s):
+        while not right():
+            await asyncio.sleep(0.01)
