@@ -1,8 +1,9 @@
 // What the dashboard asks of the service, typed by its own description.
 import createClient from "openapi-fetch";
 import { t } from "../strings";
+import { clientId } from "./client-id";
 import type { paths } from "./schema";
-import type { Action, ErrorDetail, PatientForm, SessionOpen, View3dShown } from "./types";
+import type { Action, Assistance, ErrorDetail, PatientForm, PatientLimits, SessionOpen, View3dShown } from "./types";
 
 /** A refusal or a failure, as something a person can read and act upon. */
 export class Problem extends Error {
@@ -25,6 +26,7 @@ interface Reply<T> {
 }
 
 const http = createClient<paths>({ baseUrl: "/" });
+http.use({ onRequest: ({ request }) => request.headers.set("Mirrorlimb-Client", clientId()) });
 
 async function taken<T>(asked: Promise<Reply<T>>): Promise<T> {
   const reply = await asked.catch(() => {
@@ -59,7 +61,9 @@ export const readPatient = (id: number) =>
 export const enrolPatient = (form: PatientForm) => taken(http.POST("/api/patients", { body: form }));
 export const changePatient = (id: number, form: PatientForm) =>
   taken(http.PATCH("/api/patients/{patient_id}", { params: { path: { patient_id: id } }, body: form }));
-export const readCautiousRange = () => taken(http.GET("/api/patients/cautious-range"));
+export const readCautiousLimits = () => taken(http.GET("/api/patients/cautious-limits"));
+export const confirmLimits = (id: number, seen: PatientLimits) =>
+  taken(http.POST("/api/patients/{patient_id}/confirm-limits", { params: { path: { patient_id: id } }, body: seen }));
 export const readHistory = (id: number) =>
   taken(http.GET("/api/patients/{patient_id}/sessions", { params: { path: { patient_id: id } } }));
 
@@ -68,8 +72,20 @@ export const currentSession = () => taken(http.GET("/api/sessions/current"));
 export const readSession = (id: number) => taken(http.GET("/api/sessions/{session_id}", session(id)));
 export const readCurves = (id: number) => taken(http.GET("/api/sessions/{session_id}/curves", session(id)));
 export const readEvents = (id: number) => taken(http.GET("/api/sessions/{session_id}/events", session(id)));
-export const control = (id: number, action: Action) =>
-  taken(http.POST("/api/sessions/{session_id}/control", { ...session(id), body: { action } }));
+/** Asks for something of the arm; without an answer in `patience_ms` it counts as not answered. */
+export const control = (id: number, action: Action, patience_ms?: number) =>
+  taken(
+    http.POST("/api/sessions/{session_id}/control", {
+      ...session(id),
+      body: { action },
+      ...(patience_ms && { signal: AbortSignal.timeout(patience_ms) }),
+    }),
+  );
+export const setAssistance = (id: number, mode: Assistance, level: number) =>
+  taken(http.POST("/api/sessions/{session_id}/assistance", { ...session(id), body: { mode, level } }));
+/** Takes over; while somebody else is there it is refused unless `confirmed`. */
+export const takeAuthority = (id: number, confirmed: boolean) =>
+  taken(http.POST("/api/sessions/{session_id}/authority", { ...session(id), body: { confirmed } }));
 export const followBody = (id: number, sensor: string, body: string) =>
   taken(http.POST("/api/sessions/{session_id}/follow", { ...session(id), body: { sensor, body } }));
 export const endSession = (id: number, painAfter: number | null) =>

@@ -3,8 +3,12 @@ import { retryDelayMs, streamAddress } from "./live";
 
 describe("the stream", () => {
   test("is where the page came from, encrypted where the page was", () => {
-    expect(streamAddress(new URL("http://127.0.0.1:8000/#/live"))).toBe("ws://127.0.0.1:8000/api/stream");
-    expect(streamAddress(new URL("https://station.example/play.html"))).toBe("wss://station.example/api/stream");
+    expect(streamAddress(new URL("http://127.0.0.1:8000/#/live"), "a1")).toBe(
+      "ws://127.0.0.1:8000/api/stream?client=a1",
+    );
+    expect(streamAddress(new URL("https://station.example/play.html"), "b2")).toBe(
+      "wss://station.example/api/stream?client=b2",
+    );
   });
 
   test("is tried again soon at first, then patiently, never rarely", () => {

@@ -1,4 +1,5 @@
 // The live stream: one message at a time from the service, acknowledged once it can have been drawn.
+import { clientId, OPENED_ELSEWHERE, renewClientId } from "./client-id";
 import type { LiveMessage, Screen } from "./types";
 
 /** Without news for this long what is shown is no longer true, whatever the connection says of itself. */
@@ -14,12 +15,12 @@ export interface LiveConnection {
 
 const FIRST_RETRY_MS = 250;
 const LONGEST_RETRY_MS = 3000;
-/** A hidden window draws nothing and never gets an animation frame; it still has to answer. */
-const HIDDEN_ACK_MS = 400;
+/** A window that is about to be hidden may never get its animation frame; it still has to answer. */
+const LATEST_ACK_MS = 400;
 
-/** Where the stream is, seen from a page at `page`. */
-export function streamAddress(page: URL): string {
-  return `${page.protocol === "https:" ? "wss:" : "ws:"}//${page.host}/api/stream`;
+/** Where the stream of the page `client` is, seen from a page at `page`. */
+export function streamAddress(page: URL, client: string): string {
+  return `${page.protocol === "https:" ? "wss:" : "ws:"}//${page.host}/api/stream?client=${client}`;
 }
 
 /** How long to wait before attempt number `attempt` (from 0). */
@@ -27,15 +28,22 @@ export function retryDelayMs(attempt: number): number {
   return Math.min(FIRST_RETRY_MS * 2 ** attempt, LONGEST_RETRY_MS);
 }
 
-/** Calls `act(true)` once the next frame is being drawn, or `act(false)` after a short while in a hidden window. */
+/**
+ * Calls `act(true)` once the next frame is being drawn, or `act(false)` in a hidden window: there at once, because
+ * browsers slow a hidden page's timers down, and whoever is in charge counts as gone after a second of silence.
+ */
 function afterDrawing(act: (isDrawn: boolean) => void): void {
+  if (document.hidden) {
+    act(false);
+    return;
+  }
   let done = false;
   const once = (isDrawn: boolean) => {
     if (!done) act(isDrawn);
     done = true;
   };
   requestAnimationFrame(() => once(true));
-  setTimeout(() => once(false), HIDDEN_ACK_MS);
+  setTimeout(() => once(false), LATEST_ACK_MS);
 }
 
 /**
@@ -65,15 +73,16 @@ export function connectLive(
     afterDrawing((isDrawn) => acknowledge(from, message.tick.index, isDrawn));
   };
   const open = () => {
-    const mine = new WebSocket(streamAddress(new URL(location.href)));
+    const mine = new WebSocket(streamAddress(new URL(location.href), clientId()));
     socket = mine;
     mine.onopen = () => {
       attempt = 0;
       onLink("open");
     };
     mine.onmessage = (event) => receive(mine, String(event.data));
-    mine.onclose = () => {
+    mine.onclose = ({ code }) => {
       if (closed) return;
+      if (code === OPENED_ELSEWHERE) renewClientId();
       onLink("lost");
       retry = setTimeout(open, retryDelayMs(attempt++));
     };

@@ -5,17 +5,22 @@ type Schemas = components["schemas"];
 
 export type Account = Schemas["AccountPublic"];
 export type Action = Schemas["Control"]["action"];
+export type Assistance = Schemas["Assistance"];
+export type Authority = Schemas["AuthorityView"];
 export type ArmView = Schemas["ArmView"];
 export type Curves = Schemas["Curves"];
 export type DriveState = Schemas["DriveState"];
 export type ErrorDetail = Schemas["ErrorDetail"];
+export type ForceLimits = Schemas["ForceLimits"];
 export type GameView = Schemas["GameView"];
+export type JointLimits = Schemas["JointLimits"];
 export type JointRange = Schemas["JointRange"];
 export type LiveMessage = Schemas["LiveMessage"];
 export type LiveTick = Schemas["LiveTick"];
 export type Metric = Schemas["MetricPublic"];
 export type PassiveRange = Schemas["PassiveRange"];
 export type Patient = Schemas["PatientPublic"];
+export type PatientLimits = Schemas["PatientLimits"];
 export type PatientForm = Schemas["PatientCreate"];
 export type PersonView = Schemas["PersonView"];
 export type SensorView = Schemas["SensorView"];
@@ -33,6 +38,9 @@ export type View3dShown = Schemas["View3DShown"];
 /** The exoskeleton's joints, in the order in which the service lists their values. */
 export const JOINTS = ["plane", "elevation", "rotation", "elbow"] as const;
 export type Joint = (typeof JOINTS)[number];
+
+/** How the exoskeleton can help, from most to least. */
+export const ASSISTANCE = ["passive", "assisted", "free"] as const;
 
 export function otherSide(side: Side): Side {
   return side === "left" ? "right" : "left";

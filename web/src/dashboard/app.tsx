@@ -5,6 +5,7 @@ import { t } from "../strings";
 import { FirstStart, LogIn } from "./entry";
 import { Frame } from "./frame";
 import { ASK_WHO, useAsked, useDoing, useLanguage, useRoute } from "./hooks";
+import { type Feed, useFeed } from "./live/feed";
 import { LivePage } from "./live/page";
 import { ChangePatient, EnrolPatient } from "./patient/form";
 import { PatientPage } from "./patient/page";
@@ -13,6 +14,7 @@ import { ProblemBox } from "./problem";
 import type { Route } from "./route";
 import { PreparePage } from "./session/prepare";
 import { SummaryPage } from "./session/summary";
+import { StopBar } from "./stop/bar";
 
 export function App() {
   useLanguage();
@@ -25,10 +27,12 @@ export function App() {
   }, [status.again]);
 
   const account = status.value?.account ?? null;
+  const feed = useFeed(account?.name ?? null);
   const leave = () => leaving.run(() => logOut().then(status.again));
   return (
     <Frame account={account} at={account && placeOf(route)} version={status.value?.version ?? ""} onLogOut={leave}>
-      <Inside status={status} route={route} problem={<ProblemBox problem={leaving.problem} />} />
+      <Inside status={status} route={route} feed={feed} problem={<ProblemBox problem={leaving.problem} />} />
+      {account && route.page !== "live" && <StopBar feed={feed} />}
     </Frame>
   );
 }
@@ -36,10 +40,11 @@ export function App() {
 interface InsideProps {
   status: ReturnType<typeof useAsked<Awaited<ReturnType<typeof readStatus>>>>;
   route: Route;
+  feed: Feed;
   problem: preact.ComponentChildren;
 }
 
-function Inside({ status, route, problem }: InsideProps) {
+function Inside({ status, route, feed, problem }: InsideProps) {
   const known = status.value;
   if (!known) return <Waiting status={status} />;
   if (known.first_start && !known.account) return <FirstStart demo={known.demo} onEntered={status.again} />;
@@ -47,7 +52,7 @@ function Inside({ status, route, problem }: InsideProps) {
   return (
     <>
       {problem}
-      <Page route={route} />
+      <Page route={route} feed={feed} account={known.account.name} />
     </>
   );
 }
@@ -60,7 +65,13 @@ function Waiting({ status }: { status: InsideProps["status"] }) {
   );
 }
 
-function Page({ route }: { route: Route }) {
+interface PageProps {
+  route: Route;
+  feed: Feed;
+  account: string;
+}
+
+function Page({ route, feed, account }: PageProps) {
   switch (route.page) {
     case "patients":
       return <PatientList />;
@@ -73,7 +84,7 @@ function Page({ route }: { route: Route }) {
     case "prepare":
       return <PreparePage key={route.id} id={route.id} />;
     case "live":
-      return <LivePage />;
+      return <LivePage feed={feed} account={account} />;
     case "summary":
       return <SummaryPage key={route.id} id={route.id} />;
   }

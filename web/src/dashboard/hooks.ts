@@ -77,7 +77,8 @@ export function useDoing(): Doing {
   return { busy, problem, run, forget: () => setProblem(null) };
 }
 
-function problemOf(error: unknown): Problem {
+/** What went wrong, as something a person can read; anything else is a mistake of ours and is thrown on. */
+export function problemOf(error: unknown): Problem {
   if (!(error instanceof Problem)) throw error;
   if (error.status === NOT_LOGGED_IN) window.dispatchEvent(new Event(ASK_WHO));
   return error;

@@ -1,16 +1,17 @@
 import { describe, expect, test } from "vitest";
 import type { Action, DriveState, LiveTick } from "../../api/types";
 import { isPossible } from "./actions";
+import type { Charge } from "./charge";
 
 const ACTIONS: Action[] = ["start", "hold", "resume", "stop", "reset"];
+const STATES: DriveState[] = ["off", "ready", "engaged", "hold", "fault", "stopped"];
 const tick = (state: DriveState, mayEnable = false) => ({ state, may_enable: mayEnable }) as LiveTick;
-const possible = (now: LiveTick | null) => ACTIONS.filter((action) => isPossible(action, now));
+const possible = (now: LiveTick | null, charge: Charge = "mine") =>
+  ACTIONS.filter((action) => isPossible(action, now, charge));
 
 describe("the buttons", () => {
-  test("stop is possible in every state, and where the state is not known", () => {
-    for (const state of ["off", "ready", "engaged", "hold", "fault", "stopped"] as const) {
-      expect(isPossible("stop", tick(state))).toBe(true);
-    }
+  test("stop is possible in every state, for everybody, and where the state is not known", () => {
+    for (const state of STATES) expect(isPossible("stop", tick(state), "other")).toBe(true);
     expect(possible(null)).toEqual(["stop"]);
   });
 
@@ -24,5 +25,19 @@ describe("the buttons", () => {
     expect(possible(tick("hold"))).toEqual(["resume", "stop"]);
     expect(possible(tick("stopped"))).toEqual(["stop", "reset"]);
     expect(possible(tick("fault"))).toEqual(["stop", "reset"]);
+  });
+
+  test("reset never starts: no state allows both", () => {
+    for (const state of STATES) {
+      const [reset, start] = (["reset", "start"] as const).map((one) => isPossible(one, tick(state, true), "mine"));
+      expect(reset && start).toBe(false);
+    }
+  });
+
+  test("who is not in charge can hold and stop, nothing else", () => {
+    for (const charge of ["other", "gone"] as const) {
+      const all = new Set(STATES.flatMap((state) => possible(tick(state, true), charge)));
+      expect([...all].sort()).toEqual(["hold", "stop"]);
+    }
   });
 });

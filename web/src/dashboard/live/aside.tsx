@@ -4,6 +4,7 @@ import { t } from "../../strings";
 import { duration } from "../format";
 import { type Feed, useFromFeed } from "./feed";
 import type { Question } from "./who";
+import "./aside.css";
 
 const PLAY_PAGE = "/play.html";
 

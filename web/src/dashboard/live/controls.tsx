@@ -1,47 +1,45 @@
-// The five wishes a therapist has of the arm; each button keeps its place.
+// The wishes a therapist has of the arm; each button keeps its place. Reset and Start are two acts: none does both.
 import type { Action } from "../../api/types";
 import { t } from "../../strings";
+import { StopButton } from "../stop/button";
 import { isPossible } from "./actions";
+import type { Charge } from "./charge";
 import { type Feed, useFromFeed } from "./feed";
+import type { Wishes } from "./wishes";
 
-const ACTIONS: readonly Action[] = ["start", "hold", "resume", "reset", "stop"];
+const ACTIONS = ["reset", "start", "hold", "resume"] as const;
 
 interface Props {
   feed: Feed;
-  /** What has been pressed and is not answered yet. */
-  pending: Action | null;
-  onWish: (action: Action) => void;
+  charge: Charge;
+  wishes: Wishes;
 }
 
-export function Controls({ feed, pending, onWish }: Props) {
-  const possible = useFromFeed(feed, 15, possibleOf).split(" ");
+export function Controls({ feed, charge, wishes }: Props) {
+  const possible = useFromFeed(feed, 15, (now) => possibleOf(now, charge)).split(" ");
   return (
     <div class="controls">
       {ACTIONS.map((action) => (
         <button
           key={action}
           type="button"
-          class={classOf(action)}
+          class={action === "start" || action === "resume" ? "go" : ""}
           disabled={!possible.includes(action)}
-          aria-busy={pending === action}
-          onClick={() => onWish(action)}
+          aria-busy={wishes.pending === action}
+          title={t(`control.${action}.means`)}
+          onClick={() => wishes.wish(action)}
           data-testid={action}
         >
           {t(`control.${action}`)}
-          {pending === action && action !== "stop" && <span class="key-hint">…</span>}
-          {action === "stop" && <span class="key-hint">{t("control.stop.keys")}</span>}
+          {wishes.pending === action && <span class="key-hint">…</span>}
         </button>
       ))}
+      <StopButton {...wishes.stop} />
     </div>
   );
 }
 
-function possibleOf(feed: Feed): string {
+function possibleOf(feed: Feed, charge: Charge): string {
   const tick = feed.link === "open" ? (feed.newest?.tick ?? null) : null;
-  return ACTIONS.filter((action) => isPossible(action, tick)).join(" ");
-}
-
-function classOf(action: Action): string {
-  if (action === "stop") return "stop";
-  return action === "start" || action === "resume" ? "go" : "";
+  return ACTIONS.filter((action: Action) => isPossible(action, tick, charge)).join(" ");
 }

@@ -7,6 +7,7 @@ import { AFFECTED_LINE, AXIS, type ChartOptions, fillingChart, HEALTHY_LINE } fr
 import { figure } from "../format";
 import { type Feed, useFromFeed } from "./feed";
 import { SHOWN_S } from "./traces";
+import "./curve.css";
 
 /** As often as an eye needs for a curve; the game on the other screen needs the processor more. */
 const DRAWINGS_PER_S = 20;

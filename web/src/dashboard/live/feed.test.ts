@@ -3,7 +3,9 @@ import { STALE_S } from "../../api/live";
 import type { LiveMessage } from "../../api/types";
 import { Feed } from "./feed";
 
-const message = { tick: { t_s: 1, healthy: null, affected: { valid: false } } } as unknown as LiveMessage;
+const message = {
+  tick: { t_s: 1, healthy: null, affected: { valid: false }, exo: { clamped: ["elbow: held"] } },
+} as unknown as LiveMessage;
 
 afterEach(() => vi.useRealTimers());
 
@@ -19,4 +21,14 @@ test("a service that hangs behind an open connection counts as lost until it spe
   expect(feed.link).toBe("lost");
   feed.take(message);
   expect(feed.link).toBe("open");
+});
+
+test("what was clamped in one tick can still be read", () => {
+  vi.useFakeTimers();
+  const feed = new Feed();
+  feed.take(message);
+  vi.advanceTimersByTime(1000);
+  expect(feed.clampedLately()).toEqual(["elbow: held"]);
+  vi.advanceTimersByTime(3000);
+  expect(feed.clampedLately()).toEqual([]);
 });

@@ -3,6 +3,7 @@ import { useEffect, useState } from "preact/hooks";
 import { connectLive, type Link, STALE_S } from "../../api/live";
 import type { LiveMessage } from "../../api/types";
 import { ASK_WHO } from "../hooks";
+import { Lately } from "./lately";
 import { Traces } from "./traces";
 
 export class Feed {
@@ -11,6 +12,7 @@ export class Feed {
   connection: Link = "connecting";
   private arrived_s = 0;
   readonly traces = new Traces();
+  private readonly clamps = new Lately();
 
   /** How things stand; a service that hangs breaks no connection, yet what it said last is no longer true. */
   get link(): Link {
@@ -22,6 +24,12 @@ export class Feed {
     this.newest = message;
     this.arrived_s = seconds();
     this.traces.take(message.tick);
+    this.clamps.take(message.tick.exo.clamped, this.arrived_s);
+  }
+
+  /** What the limits have changed within the last seconds, and why. */
+  clampedLately(): string[] {
+    return this.clamps.at(seconds());
   }
 }
 
@@ -29,22 +37,30 @@ function seconds(): number {
   return performance.now() / 1000;
 }
 
-/** A feed that follows the stream for as long as the page is shown. */
-export function useFeed(): Feed {
+/**
+ * A feed that follows the stream for as long as somebody is logged in. It is kept from page to page: to be in charge
+ * means to be connected, and to stop on any page one has to know that a session is open.
+ */
+export function useFeed(account: string | null): Feed {
   const [feed] = useState(() => new Feed());
-  useEffect(() => {
-    const connection = connectLive(
-      "dashboard",
-      (message) => feed.take(message),
-      (link) => {
-        feed.connection = link;
-        // The stream also breaks when the log-in has run out, and a browser is not told why it was refused.
-        if (link === "lost") window.dispatchEvent(new Event(ASK_WHO));
-      },
-    );
-    return () => connection.close();
-  }, [feed]);
+  useEffect(() => (account === null ? undefined : follow(feed)), [feed, account]);
   return feed;
+}
+
+function follow(feed: Feed): () => void {
+  const connection = connectLive(
+    "dashboard",
+    (message) => feed.take(message),
+    (link) => {
+      feed.connection = link;
+      // The stream also breaks when the log-in has run out, and a browser is not told why it was refused.
+      if (link === "lost") window.dispatchEvent(new Event(ASK_WHO));
+    },
+  );
+  return () => {
+    connection.close();
+    feed.newest = null;
+  };
 }
 
 /**

@@ -1,29 +1,37 @@
 // The live session on one screen: state and controls, 3-D view, curves, sensors, exoskeleton, game.
 import { useState } from "preact/hooks";
 import { currentSession } from "../../api/client";
-import type { Action, Session } from "../../api/types";
+import type { Session } from "../../api/types";
 import { t } from "../../strings";
-import { useAsked, useDoing } from "../hooks";
+import { useAsked } from "../hooks";
 import { ProblemBox } from "../problem";
 import { hrefOf } from "../route";
-import { send } from "./actions";
+import { useStopKey } from "../stop/key";
 import { Aside } from "./aside";
+import { Authority } from "./authority";
 import { Controls } from "./controls";
 import { LiveCurve } from "./curve";
 import { EndQuestion } from "./end-question";
-import { Exo } from "./exo";
-import { useFeed } from "./feed";
+import { Exo } from "./exo/panel";
+import { type Feed, useFromFeed } from "./feed";
 import "./live.css";
-import "./live-small.css";
+import { Lost } from "./lost";
 import { Sensors } from "./sensors";
 import { StateBanner } from "./state-banner";
-import { useStopKey } from "./stop-key";
+import { useCharge } from "./use-charge";
 import { useView3d, View3d, View3dSwitch } from "./view3d";
 import { useWho, Who } from "./who";
+import { useWishes } from "./wishes";
+import "./live-small.css";
 
-export function LivePage() {
+interface Props {
+  feed: Feed;
+  account: string;
+}
+
+export function LivePage({ feed, account }: Props) {
   const current = useAsked(currentSession, "current");
-  if (current.value) return <Live session={current.value} />;
+  if (current.value) return <Live session={current.value} feed={feed} account={account} />;
   return (
     <main class="page page-narrow">
       <ProblemBox problem={current.problem} onRetry={current.again} />
@@ -44,22 +52,19 @@ function NoSession() {
   );
 }
 
-function Live({ session }: { session: Session }) {
-  const feed = useFeed();
-  const wishes = useDoing();
+function Live({ session, feed, account }: Props & { session: Session }) {
+  const charge = useCharge(feed, account);
+  const wishes = useWishes(session.id);
   const [ending, setEnding] = useState(false);
   const view3d = useView3d();
   const who = useWho(feed);
-  const [pressed, setPressed] = useState<Action | null>(null);
-  const wish = (action: Action) => {
-    setPressed(action);
-    wishes.run(() => send(session.id, action));
-  };
-  const alsoListenIn = useStopKey(() => wish("stop"));
+  const isLost = useFromFeed(feed, 5, ({ link }) => link === "lost");
+  const alsoListenIn = useStopKey(wishes.stop.press);
   return (
-    <main class="live" data-testid="live">
+    <main class={isLost ? "live live-lost" : "live"} data-testid="live">
       <StateBanner feed={feed}>
-        <Controls feed={feed} pending={wishes.busy ? pressed : null} onWish={wish} />
+        <Controls feed={feed} charge={charge} wishes={wishes} />
+        <Authority feed={feed} charge={charge} session={session.id} account={account} />
       </StateBanner>
       <div class={view3d.isShown ? "live-main" : "live-main live-main-flat"}>
         {view3d.isShown && <View3d feed={feed} onLoad={alsoListenIn} />}
@@ -70,10 +75,11 @@ function Live({ session }: { session: Session }) {
         <View3dSwitch {...view3d} />
         {who.isShown && <Who feed={feed} session={session.id} onClose={who.close} />}
         {ending && <EndQuestion session={session.id} onCancel={() => setEnding(false)} />}
+        {isLost && <Lost charge={charge} />}
       </div>
       <div class="live-foot">
+        <Exo feed={feed} session={session.id} charge={charge} />
         <Sensors feed={feed} />
-        <Exo feed={feed} />
         <Aside feed={feed} session={session} who={who} onEnd={() => setEnding(true)} />
       </div>
       {wishes.problem && (

@@ -5,6 +5,7 @@ import { t } from "../../strings";
 import { figure, sentence, thousandths } from "../format";
 import { useAsked } from "../hooks";
 import { type Feed, useFromFeed } from "./feed";
+import "./sensors.css";
 
 const SILENT_AFTER_S = 1;
 const JOINT_COUNT = 25;
@@ -35,7 +36,6 @@ function SensorTable({ sensors }: { sensors: readonly SensorView[] }) {
         <thead>
           <tr>
             <th>{t("sensor.name")}</th>
-            <th>{t("sensor.state")}</th>
             <th class="number">{t("sensor.frames")}</th>
             <th class="number">{t("sensor.latency")}</th>
             <th class="number">{t("sensor.joints")}</th>
@@ -59,9 +59,9 @@ function Row({ sensor }: { sensor: SensorView }) {
     <tr data-testid="sensor-row" data-aligned={sensor.aligned}>
       <td>
         <strong>{sensor.sensor}</strong>
+        <div>{stateOf(sensor)}</div>
         <div class="soft">{sensor.dialect}</div>
       </td>
-      <td>{stateOf(sensor)}</td>
       <td class="number">{figure(sensor.frames_per_s, 1)}</td>
       <td class="number">{thousandths(sensor.latency_s)}</td>
       <td class="number">

@@ -1,13 +1,14 @@
 // The arm's state, large: sign, word, why, and what to do next.
-import type { LiveMessage, LiveTick } from "../../api/types";
+import type { Assistance, LiveMessage, LiveTick } from "../../api/types";
 import { t } from "../../strings";
 import { sentence } from "../format";
 import { type Feed, useFromFeed } from "./feed";
 import { type BannerState, StateSign } from "./state-sign";
+import "./state.css";
 
 export function StateBanner({ feed, children }: { feed: Feed; children: preact.ComponentChildren }) {
   const shown = useFromFeed(feed, 15, faceOf);
-  const { state, reasons } = JSON.parse(shown) as Face;
+  const { state, reasons, manner } = JSON.parse(shown) as Face;
   const word = isBlocked(state, reasons) ? "waiting" : state;
   return (
     <section class={`state state-${word}`}>
@@ -15,9 +16,11 @@ export function StateBanner({ feed, children }: { feed: Feed; children: preact.C
         <StateSign state={state} />
         <div>
           <div class="state-word" data-testid="state" data-state={state}>
-            {t(`state.${word}`)}
+            {t(manner === "soft" && word === "hold" ? "state.soft" : `state.${word}`)}
           </div>
-          <div class="state-reason">{[...reasons.map(asSentence), ...nextOf(state, reasons)].join("")}</div>
+          <div class="state-reason" data-testid="state-reason">
+            {[...reasons.map(asSentence), ...nextOf(state, reasons, manner)].join("")}
+          </div>
         </div>
       </div>
       {children}
@@ -29,12 +32,16 @@ interface Face {
   state: BannerState;
   /** Why it is so, or what is still missing, in the service's words. */
   reasons: readonly string[];
+  /** How the arm is helped while it moves; `soft` where a hold gives way. */
+  manner: Assistance | "soft";
 }
 
 /** What to do next; where something is missing, its own words have said that already. */
-function nextOf(state: Face["state"], reasons: readonly string[]): string[] {
+function nextOf(state: Face["state"], reasons: readonly string[], manner: Face["manner"]): string[] {
   const isSaid = isBlocked(state, reasons) || (state === "off" && reasons.length > 0);
-  return isSaid ? [] : [t(`state.${state}.next`)];
+  if (isSaid) return [];
+  if (state === "hold" && manner === "soft") return [t("state.soft.next")];
+  return [state === "engaged" && manner !== "soft" ? t(`state.engaged.${manner}`) : t(`state.${state}.next`)];
 }
 
 /** Ready says the station of itself also while it would refuse Start. */
@@ -48,19 +55,21 @@ function faceOf(feed: Feed): string {
 }
 
 function faceWithout(feed: Feed): Face {
-  return { state: feed.link === "lost" ? "lost" : "connecting", reasons: [] };
+  return { state: feed.link === "lost" ? "lost" : "connecting", reasons: [], manner: "passive" };
 }
 
 /** Once the station has died, a session can only be ended, whatever the arm's state. */
 function faceOfMessage({ tick, session }: LiveMessage): Face {
-  return session?.phase === "interrupted" ? { state: "interrupted", reasons: [] } : faceOfTick(tick);
+  const isCut = session?.phase === "interrupted";
+  return isCut ? { state: "interrupted", reasons: [], manner: "passive" } : faceOfTick(tick);
 }
 
 /** Ready and moving explain themselves; what still blocks the way says more than the state's own reason. */
-function faceOfTick({ state, reason, may_enable, blockers }: LiveTick): Face {
+function faceOfTick({ state, reason, may_enable, blockers, exo }: LiveTick): Face {
   const waits = (state === "ready" || state === "off") && !may_enable;
   const tellsWhy = state === "hold" || state === "fault" || state === "stopped";
-  return { state, reasons: waits ? blockers : tellsWhy && reason ? [reason] : [] };
+  const reasons = waits ? blockers : tellsWhy && reason ? [reason] : [];
+  return { state, reasons, manner: exo.compliant ? "soft" : exo.assistance };
 }
 
 function asSentence(phrase: string): string {

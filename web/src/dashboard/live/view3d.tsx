@@ -6,6 +6,7 @@ import type { View3dLook, View3dShown } from "../../api/types";
 import { t } from "../../strings";
 import { useAsked } from "../hooks";
 import { type Feed, useFromFeed } from "./feed";
+import "./view3d.css";
 
 const VIEW_PAGE = "/view3d/";
 const REMEMBERED_AS = "mirrorlimb.view3d";

@@ -1,18 +1,19 @@
 // Enrolling a patient, and changing what is known of one.
 import { useState } from "preact/hooks";
-import { changePatient, enrolPatient, readCautiousRange, readPatient } from "../../api/client";
-import { JOINTS, type Joint, otherSide, type Patient, type PatientForm, type Side } from "../../api/types";
+import { changePatient, enrolPatient, readCautiousLimits, readPatient } from "../../api/client";
+import { otherSide, type Patient, type PatientForm, type Side } from "../../api/types";
 import { t } from "../../strings";
 import { type Asked, useAsked, useDoing } from "../hooks";
 import { ProblemBox } from "../problem";
 import { go, hrefOf } from "../route";
-import { type Draft, draftOf, emptyDraft, formOf, LARGEST_DEG, type RangeDraft, rangeDeg } from "./draft";
-import { RangePicture } from "./range-picture";
+import { type Draft, draftOf, emptyDraft, formOf } from "./draft";
+import { HelpFields } from "./help-fields";
+import { JointFields } from "./joint-fields";
 
 export function EnrolPatient() {
-  const range = useAsked(readCautiousRange, "range");
-  if (!range.value) return <NotYet asked={range} />;
-  const first = emptyDraft(range.value);
+  const limits = useAsked(readCautiousLimits, "limits");
+  if (!limits.value) return <NotYet asked={limits} />;
+  const first = emptyDraft(limits.value);
   return <Form title={t("patient.new")} first={first} send={enrolPatient} back={hrefOf({ page: "patients" })} />;
 }
 
@@ -58,8 +59,11 @@ function Form({ title, first, send, back }: FormProps) {
       <h1>{title}</h1>
       <form class="card-form" onSubmit={submit}>
         <div class="columns">
-          <Person draft={draft} change={change} />
-          <Ranges draft={draft} change={change} />
+          <div class="column">
+            <Person draft={draft} change={change} />
+            <HelpFields draft={draft} change={change} />
+          </div>
+          <JointFields draft={draft} change={change} />
         </div>
         <ProblemBox problem={doing.problem} onClose={doing.forget} />
         <div class="row">
@@ -69,14 +73,14 @@ function Form({ title, first, send, back }: FormProps) {
           <a class="button" href={back}>
             {t("action.cancel")}
           </a>
-          {!form && <span class="soft">{t("patient.incomplete")}</span>}
+          <span class="soft">{t(form ? "patient.then-confirm" : "patient.incomplete")}</span>
         </div>
       </form>
     </main>
   );
 }
 
-interface PartProps {
+export interface PartProps {
   draft: Draft;
   change: (part: Partial<Draft>) => void;
 }
@@ -129,66 +133,5 @@ function SideButton({ side, draft, change }: PartProps & { side: Side }) {
       {t(`side.${side}`)}
       <span class="small">{t(`patient.affected.${otherSide(side)}`)}</span>
     </button>
-  );
-}
-
-function Ranges({ draft, change }: PartProps) {
-  const affected = otherSide(draft.healthySide ?? "left");
-  return (
-    <section class="card">
-      <h2>{t("range.title")}</h2>
-      <p class="soft small">{t("range.why")}</p>
-      {JOINTS.map((joint) => (
-        <RangeField
-          key={joint}
-          joint={joint}
-          side={affected}
-          range={draft.range[joint]}
-          onChange={(range) => change({ range: { ...draft.range, [joint]: range } })}
-        />
-      ))}
-    </section>
-  );
-}
-
-interface RangeFieldProps {
-  joint: Joint;
-  side: Side;
-  range: RangeDraft;
-  onChange: (range: RangeDraft) => void;
-}
-
-function RangeField({ joint, side, range, onChange }: RangeFieldProps) {
-  const usable = rangeDeg(range);
-  const [min, max] = usable ?? [0, 0];
-  return (
-    <div class="range">
-      <RangePicture joint={joint} side={side} minDeg={min} maxDeg={max} />
-      <div class="field">
-        <h3>{t(`joint.${joint}`)}</h3>
-        <span class="hint">{t(`range.${joint}.hint`)}</span>
-        <div class="range-inputs">
-          <Degrees name={t("range.from")} value={range.min} onInput={(value) => onChange({ ...range, min: value })} />
-          <Degrees name={t("range.to")} value={range.max} onInput={(value) => onChange({ ...range, max: value })} />
-        </div>
-        {!usable && <span class="small caveat">{t("range.wrong")}</span>}
-      </div>
-    </div>
-  );
-}
-
-function Degrees({ name, value, onInput }: { name: string; value: string; onInput: (value: string) => void }) {
-  return (
-    <label class="hint">
-      {name}
-      <input
-        type="number"
-        min={-LARGEST_DEG}
-        max={LARGEST_DEG}
-        step="1"
-        value={value}
-        onInput={(event) => onInput(event.currentTarget.value)}
-      />
-    </label>
   );
 }

@@ -1,12 +1,12 @@
 // One patient: who, how far the arm may go, and what the sessions have shown.
 import { currentSession, readHistory, readPatient } from "../../api/client";
-import { JOINTS, otherSide, type Patient } from "../../api/types";
+import { otherSide, type Patient } from "../../api/types";
 import { t } from "../../strings";
-import { angleText } from "../format";
 import { useAsked } from "../hooks";
 import { ProblemBox } from "../problem";
 import { hrefOf } from "../route";
 import { History } from "./history";
+import { LimitsCard } from "./limits-card";
 import { Trend } from "./trend";
 
 export function PatientPage({ id }: { id: number }) {
@@ -16,6 +16,9 @@ export function PatientPage({ id }: { id: number }) {
     <main class="page">
       <ProblemBox problem={patient.problem ?? sessions.problem} onRetry={patient.again} />
       {patient.value && <Head patient={patient.value} />}
+      {patient.value && !patient.value.limits_set_by && (
+        <LimitsCard patient={patient.value} onConfirmed={patient.again} />
+      )}
       {sessions.value && (
         <section class="card">
           <h2>{t("history.title")}</h2>
@@ -29,7 +32,7 @@ export function PatientPage({ id }: { id: number }) {
           )}
         </section>
       )}
-      {patient.value && <Known patient={patient.value} />}
+      {patient.value && <Known patient={patient.value} onConfirmed={patient.again} />}
     </main>
   );
 }
@@ -68,31 +71,14 @@ function OpenButton({ patient }: { patient: Patient }) {
   );
 }
 
-function Known({ patient }: { patient: Patient }) {
+function Known({ patient, onConfirmed }: { patient: Patient; onConfirmed: () => void }) {
   return (
     <div class="columns">
       <section class="card">
         <h2>{t("patient.notes")}</h2>
         <p class="notes">{patient.notes || <span class="soft">{t("patient.notes.none")}</span>}</p>
       </section>
-      <section class="card">
-        <h2>{t("range.title")}</h2>
-        <table>
-          <tbody>
-            {JOINTS.map((joint) => (
-              <tr key={joint}>
-                <td>{t(`joint.${joint}`)}</td>
-                <td class="number">
-                  {t("range.between", {
-                    min: angleText(patient.passive_range?.[joint]?.min_rad),
-                    max: angleText(patient.passive_range?.[joint]?.max_rad),
-                  })}
-                </td>
-              </tr>
-            ))}
-          </tbody>
-        </table>
-      </section>
+      {patient.limits_set_by && <LimitsCard patient={patient} onConfirmed={onConfirmed} />}
     </div>
   );
 }

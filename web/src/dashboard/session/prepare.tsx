@@ -1,13 +1,15 @@
 // Before a session opens: which arm is affected, confirmed on screen, and how much it hurts.
 import { useState } from "preact/hooks";
 import { openSession, readPatient } from "../../api/client";
-import { otherSide, type Patient, type Side } from "../../api/types";
-import { t } from "../../strings";
+import type { Assistance, Patient, Side } from "../../api/types";
+import { type Key, t } from "../../strings";
 import { useAsked, useDoing } from "../hooks";
 import { ProblemBox } from "../problem";
 import { go, hrefOf } from "../route";
-import { ArmPicture } from "./arm-picture";
+import { HelpQuestion } from "./help-question";
+import { missingFor } from "./missing";
 import { PainScale } from "./pain-scale";
+import { SideQuestion } from "./side-question";
 
 /** The one game so far; where there are several, this page is where one is chosen. */
 const GAME = "reach";
@@ -33,6 +35,9 @@ function Prepare({ patient }: { patient: Patient }) {
   const [side, setSide] = useState<Side | null>(null);
   const [pain, setPain] = useState<number | null>(null);
   const [level, setLevel] = useState(FIRST_LEVEL);
+  const [assistance, setAssistance] = useState<Assistance>(patient.assistance ?? "passive");
+  const [help, setHelp] = useState(patient.assist_level_most ?? 1);
+  const missing = missingFor(patient, side);
   const doing = useDoing();
   const open = () =>
     doing.run(async () => {
@@ -43,6 +48,8 @@ function Prepare({ patient }: { patient: Patient }) {
         pain_before: pain,
         level,
         game: GAME,
+        assistance,
+        assist_level: help,
       });
       go({ page: "live" });
     });
@@ -54,13 +61,23 @@ function Prepare({ patient }: { patient: Patient }) {
         <h2>{t("prepare.pain")}</h2>
         <PainScale value={pain} onChange={setPain} />
       </section>
-      <LevelQuestion level={level} onLevel={setLevel} />
+      <div class="columns">
+        <HelpQuestion
+          mode={assistance}
+          level={help}
+          most={patient.assist_level_most ?? 1}
+          onMode={setAssistance}
+          onLevel={setHelp}
+        />
+        <LevelQuestion level={level} onLevel={setLevel} />
+      </div>
+      {missing.length > 0 && <Missing patient={patient} keys={missing} />}
       <ProblemBox problem={doing.problem} onClose={doing.forget} />
       <div class="row">
         <button
           type="button"
           class="primary big"
-          disabled={doing.busy || !side}
+          disabled={doing.busy || missing.length > 0}
           onClick={open}
           data-testid="begin-session"
         >
@@ -69,44 +86,28 @@ function Prepare({ patient }: { patient: Patient }) {
         <a class="button" href={hrefOf({ page: "patient", id: patient.id })}>
           {t("action.cancel")}
         </a>
-        {!side && <span class="soft">{t("prepare.side.missing")}</span>}
       </div>
     </>
   );
 }
 
-interface SideProps {
-  patient: Patient;
-  side: Side | null;
-  onChoose: (side: Side) => void;
-}
-
-function SideQuestion({ patient, side, onChoose }: SideProps) {
-  const differs = side !== null && side === patient.healthy_side;
+function Missing({ patient, keys }: { patient: Patient; keys: readonly Key[] }) {
   return (
-    <section class="card">
-      <h2>{t("prepare.side")}</h2>
-      <p class="soft">{t("prepare.side.hint")}</p>
-      <div class="choices">
-        {(["left", "right"] as const).map((one) => (
-          <button
-            key={one}
-            type="button"
-            class="choice"
-            aria-pressed={side === one}
-            onClick={() => onChoose(one)}
-            data-testid={`confirm-side-${one}`}
-          >
-            <ArmPicture side={one} />
-            {t(`prepare.side.${one}`)}
-          </button>
-        ))}
+    <section class="notice" aria-label={t("prepare.missing")} data-testid="missing">
+      <span aria-hidden="true">⚠</span>
+      <div>
+        <strong>{t("prepare.missing")}</strong>
+        <ul>
+          {keys.map((key) => (
+            <li key={key}>{t(key)}</li>
+          ))}
+        </ul>
+        {!patient.limits_set_by && (
+          <a class="button" href={hrefOf({ page: "patient", id: patient.id })}>
+            {t("prepare.limits.go")}
+          </a>
+        )}
       </div>
-      {differs && (
-        <p class="notice" role="alert">
-          {t("prepare.side.differs", { side: t(`side.${otherSide(patient.healthy_side)}`) })}
-        </p>
-      )}
     </section>
   );
 }

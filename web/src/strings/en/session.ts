@@ -15,6 +15,10 @@ export const session = {
   "prepare.side.differs":
     "The patient's record says that the affected arm is: {side}. The session will be refused until both agree.",
   "prepare.side.missing": "Confirm the affected arm first.",
+  "prepare.side.wrong": "The affected arm on this page and in the patient's record must agree.",
+  "prepare.missing": "Still missing",
+  "prepare.limits.missing": "Nobody has confirmed the limits of this patient's arm.",
+  "prepare.limits.go": "Look at the limits and confirm them",
   "prepare.pain": "How much does it hurt now? (may be left out)",
   "prepare.level": "How demanding should the game be?",
   "prepare.level.gentle": "Gentle",

@@ -1,6 +1,5 @@
 // The keys that stop the arm, heard in the page and in the 3-D view inside it.
 import { useEffect } from "preact/hooks";
-import { isStopKey } from "./actions";
 
 /** Calls `stop` on each stop key; returns how to listen in a further window, such as a frame's. */
 export function useStopKey(stop: () => void): (inside: Window | null) => void {
@@ -23,4 +22,19 @@ export function useStopKey(stop: () => void): (inside: Window | null) => void {
   return (inside) => {
     if (inside) listenIn(inside);
   };
+}
+
+/** Escape stops the arm wherever the focus is; Space does too, except where it writes a space. */
+export function isStopKey(event: Pick<KeyboardEvent, "key" | "target">): boolean {
+  if (event.key === "Escape") return true;
+  return event.key === " " && !isWriting(event.target);
+}
+
+/** Inputs that a person types no text into: there Space is a stop like anywhere else. */
+const WORDLESS = new Set(["range", "radio", "checkbox", "button", "submit", "number"]);
+
+function isWriting(target: EventTarget | null): boolean {
+  const { tagName, type, isContentEditable } = (target ?? {}) as Partial<HTMLInputElement>;
+  if (tagName === "TEXTAREA" || isContentEditable) return true;
+  return tagName === "INPUT" && !WORDLESS.has(type ?? "text");
 }

@@ -1,0 +1,27 @@
+// The stop: never disabled, acts when a finger or a button goes down, and says what has become of it.
+import { t } from "../../strings";
+import type { StopPress } from "./press";
+import "./stop.css";
+
+export function StopButton({ progress, press }: Pick<StopPress, "progress" | "press">) {
+  return (
+    <>
+      <button
+        type="button"
+        class="stop"
+        data-progress={progress}
+        // Going down is enough: a finger that slips off the button must not undo a stop.
+        onPointerDown={(event) => event.isPrimary && event.button === 0 && press()}
+        // Assistive technology clicks without pressing down before (detail 0).
+        onClick={(event) => event.detail === 0 && press()}
+        data-testid="stop"
+      >
+        {t("control.stop")}
+        <span class="key-hint">{progress === "idle" ? t("control.stop.keys") : t(`stop.${progress}`)}</span>
+      </button>
+      <span class="spoken" role="status">
+        {progress === "idle" ? "" : t(`stop.${progress}.spoken`)}
+      </span>
+    </>
+  );
+}
