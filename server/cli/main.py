@@ -18,8 +18,21 @@ from server import __version__
 UNUSABLE = 2
 """Exit code for input or a machine that cannot be used."""
 
-COMMANDS = ("serve", "replay", "fuse", "evaluate", "locate", "arm", "experiments", "bench", "convert", "doctor")
-"""Each is a function of its name in a module of its name."""
+COMMANDS = (
+    "serve",
+    "exoskeleton",
+    "emulate",
+    "replay",
+    "fuse",
+    "evaluate",
+    "locate",
+    "arm",
+    "experiments",
+    "bench",
+    "convert",
+    "doctor",
+)
+"""Each is a function, or a group of commands, of its name in a module of its name."""
 
 
 class _Commands(TyperGroup):
@@ -34,8 +47,11 @@ class _Commands(TyperGroup):
     def get_command(self, ctx: Any, cmd_name: str) -> Any:
         if cmd_name not in COMMANDS:
             return None
+        found = getattr(import_module(f"server.cli.{cmd_name}"), cmd_name)
+        if isinstance(found, typer.Typer):
+            return typer.main.get_command(found)
         alone = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
-        alone.command(cmd_name)(getattr(import_module(f"server.cli.{cmd_name}"), cmd_name))
+        alone.command(cmd_name)(found)
         return typer.main.get_command(alone)
 
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import asyncio
 import json
-import sys
 import threading
 import time
 from concurrent.futures import Future
@@ -26,6 +25,8 @@ from server.emulated.robot import EmulatedRobot
 from server.exoskeleton import Exoskeleton
 
 RATE_HZ = 100
+USUAL_PORT = 80
+"""Of a url that names none."""
 CLOCK_AHEAD_S = 1_000_000.0
 """The robot's clock is another than ours."""
 LOOPBACK = "127.0.0.1"
@@ -234,21 +235,15 @@ def _complaint(words: str) -> dict[str, str]:
     return {"op": "status", "level": "error", "msg": words}
 
 
-def emulate(exoskeleton: Exoskeleton) -> None:
-    """Run it where the exoskeleton's url points, failing as is typed, until Ctrl-C.
+def open_peer(exoskeleton: Exoskeleton) -> RosbridgePeer:
+    """The peer where the exoskeleton's url points, not yet listening.
 
     Raises:
         InputError: the url does not point to this machine.
-        MachineError: the port is taken.
     """
     url = urlsplit(exoskeleton.rosbridge.url)
     if url.hostname not in (LOOPBACK, "localhost"):
         raise InputError(
             f"rosbridge.url is '{exoskeleton.rosbridge.url}'", f"ws://{LOOPBACK}:PORT: an emulated robot stays inside"
         )
-    with RosbridgePeer(exoskeleton, url.port or 9090) as peer:
-        print(f"An emulated '{exoskeleton.name}' listens at {peer.url}. To make it fail, type {COMMANDS}.", flush=True)
-        with suppress(KeyboardInterrupt):
-            for line in sys.stdin:
-                print(peer.obey(line), flush=True)
-            threading.Event().wait()  # a closed input is nobody who types, and no reason to end
+    return RosbridgePeer(exoskeleton, url.port or USUAL_PORT)
