@@ -186,6 +186,8 @@ class EmulatedNode:
             raise SdoAbortedError(_VALUE_REFUSED)
         if entry == objects.CONTROLWORD:
             self.drive.obey(value)
+        elif entry == objects.CONSUMER_HEARTBEAT:
+            self._station_s = None
 
     def _complain(self, code: int) -> None:
         values = self._store.values

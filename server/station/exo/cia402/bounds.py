@@ -6,13 +6,17 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import product
 
+from fusion.errors import MachineError
 from server.exoskeleton import Exoskeleton, ExoskeletonJoint
 from server.messages import JointLimits
 from server.station.exo.cia402 import objects
 from server.station.exo.cia402.objects import Entry
-from server.station.exo.cia402.sdo import Parameters
+from server.station.exo.cia402.sdo import Parameters, Place
 from server.station.exo.cia402.units import Units
 from server.station.exo.joint_map import JointMap
+
+OUTSIDE_RAD = 0.02
+"""A joint this little outside its limits is inside."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,6 +66,20 @@ def _inside(joint: ExoskeletonJoint, low: float, high: float, speed: float, acce
         min(speed, joint.velocity_rad_s),
         min(acceleration, joint.acceleration_rad_s2),
     )
+
+
+def expect_inside(place: Place, angle_rad: float, bounds: Bounds, whose: str) -> None:
+    """Refuse limits that a joint stands outside of: under power its drive would take it inside by itself.
+
+    Raises:
+        MachineError: names the joint, where it stands and the range.
+    """
+    if not bounds.min_rad - OUTSIDE_RAD <= angle_rad <= bounds.max_rad + OUTSIDE_RAD:
+        raise MachineError(
+            f"{place} stands at {angle_rad:.2f} rad, outside {whose}",
+            f"{bounds.min_rad:.2f} to {bounds.max_rad:.2f} rad",
+            "bring the device there with nobody in it, or check homing, sign and offset_rad",
+        )
 
 
 def impose(node: Parameters, bounds: Bounds, units: Units, source: str = "") -> None:

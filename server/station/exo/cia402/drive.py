@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import logging
 import time
-from collections.abc import Iterable
 from concurrent.futures import Future, ThreadPoolExecutor
-from math import isinf
+from math import copysign, isinf
 from types import TracebackType
 from typing import Self
 
@@ -17,23 +16,23 @@ from fusion.messages import Floats
 from server.exoskeleton import Exoskeleton, ExoskeletonJoint, Follows
 from server.messages import JointLimits
 from server.station.exo.cia402 import objects
-from server.station.exo.cia402.bounds import impose, patient_bounds
+from server.station.exo.cia402.bounds import device_bounds, expect_inside, impose, patient_bounds
 from server.station.exo.cia402.bus import Bus
 from server.station.exo.cia402.faults import words
+from server.station.exo.cia402.guard import Guard
 from server.station.exo.cia402.link import Link, Measured
 from server.station.exo.cia402.opening import SILENT_AFTER_BEATS, expect_station, history, open_node, start_node
 from server.station.exo.cia402.pdo import load
 from server.station.exo.cia402.sdo import Parameters, Place
 from server.station.exo.cia402.setpoint import SetPoint
-from server.station.exo.cia402.states import State, Wanted, controlword
-from server.station.exo.cia402.watch import not_enabled, trouble
+from server.station.exo.cia402.states import State, controlword
+from server.station.exo.cia402.units import Units
+from server.station.exo.cia402.watch import Patience, trouble
 from server.station.exo.driver import WATCHDOG_S, DriveCommand, DriveReading
 from server.station.exo.joint_map import JointMap
 
 log = logging.getLogger(__name__)
 
-POWER_WITHIN_S = 1.0
-"""From the first command, or a person's reset, to every drive in operation."""
 STAND_WITHIN_S = 0.5
 """At the end: from quick stop to every drive standing."""
 FULLEST = 0.8
@@ -49,21 +48,23 @@ class Cia402Drive:
         exoskeleton: its joints, each with a node of its own.
 
     Raises:
-        InputError: joints, nodes and bus do not go together; names the key and what was expected.
+        InputError: the bus is too slow for so many joints; names the key and what was expected.
     """
 
     name = "cia402"
 
     def __init__(self, exoskeleton: Exoskeleton) -> None:
-        check(exoskeleton)
+        check_load(exoskeleton)
         self._exoskeleton, self._settings = exoskeleton, exoskeleton.cia402
         self._map = JointMap(exoskeleton)
+        self._patience = Patience(
+            SILENT_AFTER_BEATS * self._settings.heartbeat_s, round(WATCHDOG_S / self._settings.period_s)
+        )
         moved = [joint for joint in exoskeleton.joints if joint.follows is not Follows.NONE]
         self.can_comply = all(joint.name in self._settings.carry_nm for joint in moved)
         self._errands = ThreadPoolExecutor(1, "canopen errand")
+        self._limits: tuple[JointLimits, ...] = ()
         self._fitting: Future[None] | None = None
-        self._fault, self._wanted, self._powered = "", Wanted.ENABLED, False
-        self._asked_s: float | None = None
         self._told_s: float | None = None
 
     # ---------------------------------------------------------------- open and close
@@ -72,17 +73,20 @@ class Cia402Drive:
         self._bus = Bus(self._settings)
         joints = self._exoskeleton.joints
         self._links = [Link(joint, self._bus) for joint in joints]
+        self._guard = Guard(self._links, self._patience)
         self._nodes = [Parameters(Place(i, joint), self._bus.sdo(joint.node)) for i, joint in enumerate(joints)]
         self._bus.start()
         try:
             self._units = [open_node(node, self._bus, self._settings) for node in self._nodes]
             for node, link in zip(self._nodes, self._links, strict=True):
                 self._meet(node, link)
+            self._set_point = SetPoint.standing(self._joints_rad())
+            for node, angle in zip(self._nodes, self._joints_rad().tolist(), strict=True):
+                expect_inside(node.place, angle, device_bounds(node.place.joint), "its own range")
         except BaseException:
             self._errands.shutdown()
             self._bus.close()
             raise
-        self._set_point = SetPoint.standing(self._joints_rad())
         return self
 
     def __exit__(
@@ -90,7 +94,7 @@ class Cia402Drive:
     ) -> None:
         """Every drive makes its quick stop and goes on holding, powered, without the station."""
         self._errands.shutdown(cancel_futures=True)
-        self._wanted = Wanted.STANDING
+        self._guard.stand()
         end_s = time.monotonic() + STAND_WITHIN_S
         while any(link.state is State.ENABLED for link in self._links) and time.monotonic() < end_s:
             self._send([joint.torque_nm for joint in self._exoskeleton.joints])
@@ -107,7 +111,7 @@ class Cia402Drive:
     def _release(self) -> None:
         """Drives that stand need not expect the station any longer; one that does not stand goes on doing so."""
         for node, link in zip(self._nodes, self._links, strict=True):
-            if link.state is State.QUICK_STOP and not trouble(link, *self._patience, time.monotonic()):
+            if link.state is State.QUICK_STOP and not trouble(link, self._patience, time.monotonic()):
                 try:
                     expect_station(node, self._settings, 0)
                 except MachineError as refused:
@@ -117,14 +121,16 @@ class Cia402Drive:
 
     def read(self, now_s: float) -> DriveReading:
         """The measurement that answered the newest SYNC."""
-        self._judge(now_s)
+        if self._guard.judge(now_s, self._bus.trouble or self._refused_range()):
+            self._errands.submit(self._note_all)
         links = list(zip(self._links, self._units, strict=True))
         return DriveReading(
             now_s,
             self._map.anatomical_rad(self._joints_rad()),
             self._map.anatomical_rad_s([units.rad(link.details.velocity) for link, units in links]),
             self._map.anatomical_nm([units.nm(link.measured.torque) for link, units in links]),
-            self._fault,
+            self._guard.fault,
+            self._map.anatomical_nm([self._interaction_nm(link, units) for link, units in links]),
         )
 
     def command(self, command: DriveCommand, now_s: float) -> None:
@@ -134,7 +140,7 @@ class Cia402Drive:
         share = self._map.spread(command.share, 1.0)
         bound_nm = self._map.spread(command.torque_nm, float("inf"))
         measured = self._joints_rad()
-        if not self._powered or self._fault or self._is_fitting():
+        if not self._guard.powered or self._is_fitting():
             self._set_point = SetPoint.standing(measured)
         else:
             wanted = self._map.joints_rad(command.angle_rad)
@@ -147,46 +153,20 @@ class Cia402Drive:
         The range is written into the drives (SR-1) and read back; a drive that does not take it is a fault.
         """
         self._set_point = SetPoint.standing(self._joints_rad())
-        self._fitting = self._errands.submit(self._impose, limits)
+        self._limits, self._fitting = limits, self._errands.submit(self._impose, limits)
 
     def reset(self) -> None:
-        """A person asks: leave the fault, and hold where the joints stand. Motion is another wish (SR-5)."""
-        for link in self._links:
-            link.emergency = 0
-        if self._fault:
-            self._fault, self._wanted, self._powered, self._asked_s = "", Wanted.RESET, False, None
-            self._bus.trouble, self._fitting = "", None
+        """A person asks: leave the fault, and hold where the joints stand. Motion is another wish (SR-5).
 
-    # ---------------------------------------------------------------- what is right and wrong
+        A patient's range is told again: it may be what was refused, and a drive that restarted has forgotten it.
+        """
+        if self._guard.fault:
+            self._bus.trouble = ""
+            self._guard.reset()
+            if self._limits:
+                self.fit(self._limits)
 
-    @property
-    def _patience(self) -> tuple[float, int]:
-        """A heartbeat's greatest age, and how many SYNCs may go unanswered."""
-        return SILENT_AFTER_BEATS * self._settings.heartbeat_s, round(WATCHDOG_S / self._settings.period_s)
-
-    def _judge(self, now_s: float) -> None:
-        self._asked_s = now_s if self._asked_s is None else self._asked_s
-        if self._fault:
-            return
-        found = self._bus.trouble or self._refused_range() or self._of_links(now_s)
-        if found:
-            self._fault, self._wanted, self._powered = found, Wanted.STANDING, False
-            log.error("%s", found)
-            self._errands.submit(self._note_all)
-
-    def _of_links(self, now_s: float) -> str:
-        found = _first(trouble(link, *self._patience, now_s) for link in self._links)
-        waiting = [link for link in self._links if link.state is not State.ENABLED]
-        if self._powered:
-            return found or _first(map(not_enabled, waiting))
-        if not waiting and not found:
-            self._powered, self._wanted = True, Wanted.ENABLED
-            self._set_point = SetPoint.standing(self._joints_rad())
-        if self._wanted is Wanted.RESET and not any(link.state is State.FAULT for link in self._links):
-            self._wanted = Wanted.ENABLED
-        overdue = self._asked_s is not None and now_s - self._asked_s > POWER_WITHIN_S
-        faulty = found if self._wanted is not Wanted.RESET else ""
-        return faulty or (_first(map(not_enabled, waiting)) if overdue else "")
+    # ---------------------------------------------------------------- the patient's range
 
     def _refused_range(self) -> str:
         if self._fitting is None or not self._fitting.done():
@@ -207,9 +187,14 @@ class Cia402Drive:
         every = zip(self._links, self._units, self._set_point.joints_rad.tolist(), limits_nm, strict=True)
         for link, units, angle, limit_nm in every:
             inside = min(max(angle, link.joint.min_rad), link.joint.max_rad)
-            link.send(controlword(link.state, self._wanted), units.counts(inside), units.per_mille(limit_nm))
+            link.send(controlword(link.state, self._guard.wanted), units.counts(inside), units.per_mille(limit_nm))
         self._bus.sync()
         self._bus.beat()
+
+    def _interaction_nm(self, link: Link, units: Units) -> float:
+        """What the motor gives beyond the most that weight can ask: so much at least is the arm's doing."""
+        used_nm, carry_nm = units.nm(link.measured.torque), self._settings.carry_nm.get(link.joint.name)
+        return 0.0 if carry_nm is None else -copysign(max(abs(used_nm) - carry_nm, 0.0), used_nm)
 
     def _limit_nm(self, joint: ExoskeletonJoint, share: float, bound_nm: float) -> float:
         """The most that the motor may use: what carries the arm, and what it may add (docs/cia402.md)."""
@@ -221,8 +206,10 @@ class Cia402Drive:
     # ---------------------------------------------------------------- errands, outside the tick
 
     def _impose(self, limits: tuple[JointLimits, ...]) -> None:
-        every = zip(self._nodes, patient_bounds(self._exoskeleton, limits), self._units, strict=True)
-        for node, bounds, units in every:
+        allowed = patient_bounds(self._exoskeleton, limits)
+        for node, angle, bounds in zip(self._nodes, self._joints_rad().tolist(), allowed, strict=True):
+            expect_inside(node.place, angle, bounds, "the patient's range")
+        for node, bounds, units in zip(self._nodes, allowed, self._units, strict=True):
             impose(node, bounds, units, "the patient's range")
 
     def _note_all(self) -> None:
@@ -230,22 +217,13 @@ class Cia402Drive:
             _note(node)
 
 
-def check(exoskeleton: Exoskeleton) -> None:
-    """Refuse joints, nodes and a bus that do not go together.
+def check_load(exoskeleton: Exoskeleton) -> None:
+    """Refuse a bus that is too slow for its joints.
 
     Raises:
         InputError: names the key and what was expected.
     """
-    settings, seen = exoskeleton.cia402, {exoskeleton.cia402.own_node: "cia402.own_node"}
-    for index, joint in enumerate(exoskeleton.joints):
-        key = f"joints[{index}].node"
-        if joint.node == 0 or joint.node in seen:
-            taken = f", {seen[joint.node]} has it" if joint.node in seen else ""
-            raise InputError(f"{key} = {joint.node} ('{joint.name}'){taken}", "a node of its own, 1 to 127")
-        seen[joint.node] = key
-    strangers = sorted(set(settings.carry_nm) - {joint.name for joint in exoskeleton.joints})
-    if strangers:
-        raise InputError(f"cia402.carry_nm names '{strangers[0]}'", "names of joints")
+    settings = exoskeleton.cia402
     full = load(len(exoskeleton.joints), settings.period_s, settings.bitrate)
     if full > FULLEST:
         raise InputError(
@@ -253,10 +231,6 @@ def check(exoskeleton: Exoskeleton) -> None:
             f"at most {FULLEST:.0%}",
             "a higher bit rate, or a longer cia402.period_s with a slower station.rate_hz",
         )
-
-
-def _first(said: Iterable[str]) -> str:
-    return next((each for each in said if each), "")
 
 
 def _note(node: Parameters) -> None:

@@ -37,19 +37,34 @@ def open_node(node: Parameters, bus: Bus, settings: Cia402Settings) -> Units:
         The joint's units, by the motor's rated torque.
 
     Raises:
-        MachineError: it is absent, no CiA 402 drive, or takes a setting otherwise than the file says.
+        MachineError: it is absent, no CiA 402 drive, not homed, or takes a setting otherwise than the file says.
     """
-    _identify(node)
-    bus.command(NMT_PRE_OPERATIONAL, node.place.joint.node)
-    units = Units.of(node.place.joint, node.read(objects.RATED_TORQUE) / 1000)
-    _expect_units(node)
-    _when_to_stop(node, settings)
+    units = prepare(node, bus, settings)
     _cycle(node, settings.period_s)
     impose(node, device_bounds(node.place.joint), units)
     impose_torque(node, units)
     expect_homed(node, settings)
     set_mode(node, objects.CYCLIC_POSITION)
     return units
+
+
+def prepare(node: Parameters, bus: Bus, settings: Cia402Settings) -> Units:
+    """Find out what a node is, and tell it when to stop by itself.
+
+    Returns:
+        The joint's units, by the motor's rated torque.
+
+    Raises:
+        MachineError: it is absent, no CiA 402 drive, or takes a setting otherwise than the file says.
+    """
+    _identify(node)
+    bus.command(NMT_PRE_OPERATIONAL, node.place.joint.node)
+    rated_mnm = node.read(objects.RATED_TORQUE)
+    if not rated_mnm:
+        raise MachineError(f"{node.place} does not know its motor: its {objects.RATED_TORQUE} reads 0", "mN m")
+    _expect_units(node)
+    _when_to_stop(node, settings)
+    return Units.of(node.place.joint, rated_mnm / 1000)
 
 
 def start_node(node: Parameters, link: Link, bus: Bus) -> None:
@@ -93,7 +108,7 @@ def expect_homed(node: Parameters, settings: Cia402Settings) -> None:
         raise MachineError(
             f"{node.place} is not homed: it does not know where it stands",
             "homing attained (bit 12 of its statusword), by cia402.homing_method",
-            "with nobody in the device: python -m server.station.exo.cia402.homing FILE",
+            "with nobody in the device: mirrorlimb exoskeleton home FILE",
         )
 
 

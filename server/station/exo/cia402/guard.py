@@ -1,0 +1,87 @@
+"""Whether the drives may follow: powered together, stopped together by the first fault, and reset by a person only."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Iterable, Sequence
+
+from server.station.exo.cia402.link import Link
+from server.station.exo.cia402.states import State, Wanted
+from server.station.exo.cia402.watch import Patience, not_enabled, trouble
+
+log = logging.getLogger(__name__)
+
+POWER_WITHIN_S = 1.0
+"""From the first look, or a person's reset, to every drive in operation."""
+
+
+class Guard:
+    """Holds what is wanted of the drives, and the latched fault.
+
+    Args:
+        links: the drives.
+        patience: how long a drive may be silent.
+    """
+
+    def __init__(self, links: Sequence[Link], patience: Patience) -> None:
+        self._links, self._patience = links, patience
+        self.fault, self.wanted = "", Wanted.ENABLED
+        self.powered = False
+        """Every drive is in operation."""
+        self._asked_s: float | None = None
+
+    def judge(self, now_s: float, said: str) -> bool:
+        """Look once per tick.
+
+        Args:
+            now_s: monotonic time.
+            said: what else is wrong, with the bus or the patient's range; "" = nothing.
+
+        Returns:
+            Whether a fault has been found now. From then on the drives are wanted standing, until `reset`.
+        """
+        self._asked_s = now_s if self._asked_s is None else self._asked_s
+        if self.fault:
+            return False
+        self.fault = said or (self._fault_in_operation(now_s) if self.powered else self._power_up(now_s))
+        if self.fault:
+            self.wanted, self.powered = Wanted.STANDING, False
+            log.error("%s", self.fault)
+        return bool(self.fault)
+
+    def reset(self) -> None:
+        """A person asks: out of the fault, and powered where the joints stand (SR-5)."""
+        for link in self._links:
+            link.emergency = 0
+        self.fault, self.wanted, self.powered, self._asked_s = "", Wanted.RESET, False, None
+
+    def stand(self) -> None:
+        """The end: quick stop."""
+        self.wanted, self.powered = Wanted.STANDING, False
+
+    def _fault_in_operation(self, now_s: float) -> str:
+        return self._trouble(now_s) or _first(map(not_enabled, self._waiting()))
+
+    def _power_up(self, now_s: float) -> str:
+        """On the way to operation; a fault that a person asked to leave is no news until the time is over."""
+        waiting, found = self._waiting(), self._trouble(now_s)
+        if not waiting and not found:
+            self.powered, self.wanted = True, Wanted.ENABLED
+            return ""
+        if self._asked_s is not None and now_s - self._asked_s > POWER_WITHIN_S:
+            return found or _first(map(not_enabled, waiting))
+        if self.wanted is Wanted.RESET:
+            left = not any(link.state is State.FAULT for link in self._links)
+            self.wanted = Wanted.ENABLED if left else Wanted.RESET
+            return ""
+        return found
+
+    def _waiting(self) -> list[Link]:
+        return [link for link in self._links if link.state is not State.ENABLED]
+
+    def _trouble(self, now_s: float) -> str:
+        return _first(trouble(link, self._patience, now_s) for link in self._links)
+
+
+def _first(said: Iterable[str]) -> str:
+    return next((each for each in said if each), "")
