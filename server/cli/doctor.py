@@ -20,6 +20,7 @@ from rich.markup import escape
 from server import __version__
 from server.cli.browser import VARIABLE, find_browser
 from server.config import Config, default_data_folder, read_config
+from server.station.exo import drives
 
 STATIC = Path(__file__).parents[1] / "api" / "static" / "index.html"
 ENOUGH_DISK_BYTES = 2 * 1024**3
@@ -58,6 +59,7 @@ def examine(config: Config) -> Iterator[Finding]:
     yield _tcp_port(config.host, config.port)
     for dialect, port in config.station.sensors.ports.items():
         yield _udp_port(dialect, config.station.sensors.bind, port)
+    yield _drive(config)
     yield _loopback_senders()
     yield _real_time()
     yield _browser()
@@ -101,6 +103,15 @@ def _udp_port(dialect: str, host: str, port: int) -> Finding:
     free = _can_bind(socket.SOCK_DGRAM, host, port)
     mend = f"another port for '{dialect}' under [station.sensors.ports] in a --config file, or end what uses it"
     return Finding(f"Sensors' port ({dialect})", free, f"UDP {host}:{port} {_free(free)}", mend)
+
+
+def _drive(config: Config) -> Finding:
+    exoskeleton = config.station.exoskeleton
+    family, absent = exoskeleton.drive, drives.missing(exoskeleton.drive)
+    found = f"'{exoskeleton.name}', drive '{family}'"
+    if not absent:
+        return Finding("Exoskeleton", True, found)
+    return Finding("Exoskeleton", False, f"{found}; {' and '.join(absent)} not installed", drives.install(family))
 
 
 def _free(free: bool) -> str:

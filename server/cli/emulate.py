@@ -16,6 +16,7 @@ import typer
 from fusion.errors import InputError
 from server.exoskeleton import Exoskeleton
 from server.exoskeleton_file import read_exoskeleton
+from server.station.exo.drives import require
 
 
 class Emulated(StrEnum):
@@ -35,6 +36,7 @@ def emulate(
         raise InputError(
             f"'{exoskeleton}': drive is '{device.drive}'", f"'{family}'", f"emulate {device.drive}, or another file"
         )
+    require(family)
     typed: SimpleQueue[str] = SimpleQueue()
     threading.Thread(target=_listen, args=(typed,), daemon=True).start()
     with suppress(KeyboardInterrupt):

@@ -12,7 +12,6 @@ import pytest
 from fusion.errors import InputError
 from server.exoskeleton import BUILT_IN, FAMILIES, Cia402Settings, Exoskeleton, ExoskeletonJoint, RosbridgeSettings
 from server.exoskeleton_file import read_exoskeleton
-from server.station.exo.drives import DRIVES
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "exoskeletons"
 SIMULATED, CIA402, ROSBRIDGE = "simulated.toml", "cia402-four-joints.toml", "rosbridge-seven-joints.toml"
@@ -54,10 +53,6 @@ def test_the_examples_explain_every_key_that_concerns_them(example, forms) -> No
         table = key in FAMILIES
         found = re.search(rf"^\[{key}\]" if table else rf"^{key} = .*#", text, re.MULTILINE)
         assert found or key in ("max_rad", "acceleration_rad_s2", "torque_nm", "channel"), key
-
-
-def test_every_family_has_a_drive_and_every_drive_is_a_family() -> None:
-    assert set(DRIVES) <= set(FAMILIES)
 
 
 WRONG = [

@@ -8,6 +8,7 @@ import msgspec
 
 from server.cli.doctor import Finding, examine
 from server.config import Config, SensorsConfig, StationConfig
+from server.station.exo import drives
 
 
 def _config(port: int = 0, udp: int = 0) -> Config:
@@ -47,3 +48,13 @@ def test_a_data_folder_that_is_a_file_is_missing(tmp_path) -> None:
     finding = _find(msgspec.structs.replace(_config(), data=str(blocked / "data")), "Data folder")
     assert not finding.good
     assert "--data" in finding.mend
+
+
+def test_the_exoskeleton_is_named_and_what_its_drive_lacks(monkeypatch) -> None:
+    assert "'simulated'" in _find(_config(), "Exoskeleton").found
+    assert _find(_config(), "Exoskeleton").good
+    monkeypatch.setitem(drives.EXTRAS, "simulated", ("simulation", ("mujoco", "no_such_module")))
+    finding = _find(_config(), "Exoskeleton")
+    assert not finding.good
+    assert "no_such_module not installed" in finding.found
+    assert "[simulation]" in finding.mend
