@@ -56,13 +56,14 @@ class RemoteDrive:
 
     Args:
         exoskeleton: what the drive's process was made from too.
+        address: Unix socket of that process; by default the environment names it.
     """
 
     name = "simulated"
     can_comply = True
 
-    def __init__(self, exoskeleton: Exoskeleton) -> None:
-        self._address = os.environ[ADDRESS]
+    def __init__(self, exoskeleton: Exoskeleton, address: str = "") -> None:
+        self._address = address or os.environ[ADDRESS]
         self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
         self._reading = DriveReading(0.0, ZERO, ZERO, ZERO, "The drive has not answered yet.")
         self._heard_s = float("-inf")
@@ -90,6 +91,9 @@ class RemoteDrive:
     def fit(self, limits: tuple[JointLimits, ...]) -> None:
         """An arm is put in."""
         self._say(Fitted(limits))
+
+    def reset(self) -> None:
+        """Its faults end with their causes; there is nothing to leave."""
 
     def command(self, command: DriveCommand, now_s: float) -> None:
         """Give the tick's command."""

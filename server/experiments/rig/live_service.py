@@ -23,6 +23,7 @@ from fusion.errors import MachineError
 from server.api.live import Screen
 from server.experiments.rig.drive_link import ADDRESS
 from server.experiments.rig.scene import DriveProcess, running_drive
+from server.experiments.rig.station_process import INSIDE_FILE
 from server.messages import DriveState
 
 PAGE: Final = "therapist"
@@ -73,6 +74,8 @@ class LiveService:
     drive: DriveProcess
     page: httpx.AsyncClient
     session: int = 0
+    loop_port: int = 0
+    """Where the loop in a thread of the service hears sensors, if there is one."""
     ticks: list[ShortTick] = field(default_factory=list)
 
     @property
@@ -151,17 +154,23 @@ class LiveService:
 
 
 @asynccontextmanager
-async def live_service(data: Path) -> AsyncIterator[LiveService]:
-    """The demonstration with an open session, while the block lasts."""
+async def live_service(data: Path, loop_drive: DriveProcess | None = None) -> AsyncIterator[LiveService]:
+    """The demonstration with an open session, while the block lasts.
+
+    Args:
+        data: an empty folder.
+        loop_drive: runs the station's loop in a thread of the service too, on this drive.
+    """
     async with AsyncExitStack() as stack:
         drive = stack.enter_context(running_drive(data))
-        process = await _started(data, drive)
+        process = await _started(data, drive, loop_drive)
         stack.push_async_callback(_ended, process)
-        url = await _address(process)
+        loop_port = int(await _line(process)) if loop_drive else 0
+        url = (await _line(process)).decode().strip()
         headers = {"Mirrorlimb-Client": PAGE}
         page = httpx.AsyncClient(base_url=url, timeout=20, trust_env=False, headers=headers)
         await stack.enter_async_context(page)
-        service = LiveService(process, url, data, drive, page)
+        service = LiveService(process, url, data, drive, page, loop_port=loop_port)
         patient = (await page.post("/api/demo")).raise_for_status().json()["patient"]
         stack.push_async_callback(_cancelled, asyncio.create_task(_watched(service)))
         await _until(lambda: service.ticks)
@@ -176,19 +185,19 @@ async def _watched(service: LiveService) -> None:
         await service.watch(socket)
 
 
-async def _started(data: Path, drive: DriveProcess) -> asyncio.subprocess.Process:
-    environment = {**os.environ, ADDRESS: str(drive.address)}
-    command = (sys.executable, *SERVICE, "--data", str(data / "service"))
+async def _started(data: Path, drive: DriveProcess, loop_drive: DriveProcess | None) -> asyncio.subprocess.Process:
+    environment = {**os.environ, ADDRESS: str(drive.address), INSIDE_FILE: str(data / "inside.json")}
+    command: tuple[str, ...] = (sys.executable, *SERVICE, "--data", str(data / "service"))
+    if loop_drive:
+        command = (*command, "--loop-drive", str(loop_drive.address))
     return await asyncio.create_subprocess_exec(*command, stdout=asyncio.subprocess.PIPE, env=environment)
 
 
-async def _address(process: asyncio.subprocess.Process) -> str:
-    if process.stdout is None:
-        raise MachineError("the service has no output to read its address from")
-    line = await asyncio.wait_for(process.stdout.readline(), START_WITHIN_S)
-    if not line.startswith(b"http"):
-        raise MachineError(f"the service did not start: {line.decode(errors='replace').strip()}")
-    return line.decode().strip()
+async def _line(process: asyncio.subprocess.Process) -> bytes:
+    line = await asyncio.wait_for(process.stdout.readline(), START_WITHIN_S) if process.stdout else b""
+    if not line:
+        raise MachineError("the service did not start; it has said why on the error output")
+    return line
 
 
 async def _ended(process: asyncio.subprocess.Process) -> None:

@@ -16,12 +16,16 @@ from pathlib import Path
 from struct import Struct
 from typing import Any, Final
 
+from server.experiments.rig.inside import Watch
+from server.station import pacemaker
 from server.station.__main__ import main as run_station
 from server.station.exo.drives import DRIVES
 from server.station.sources.udp import SO_TIMESTAMPNS
 
 STEP_FILE: Final = "MIRRORLIMB_RIG_CLOCK"
 """Environment variable: the file that holds the step."""
+INSIDE_FILE: Final = "MIRRORLIMB_RIG_INSIDE"
+"""Environment variable: the file for what is counted inside."""
 NS_PER_S: Final = 1_000_000_000
 _STEP: Final = Struct("@qq")  # ns of the step, ns of the true wall clock from which on it holds
 _STAMP: Final = Struct("@qq")  # the kernel's timespec
@@ -76,7 +80,18 @@ def main() -> int:
     DRIVES["simulated"] = ("server.experiments.rig.drive_link", "RemoteDrive")
     if STEP_FILE in os.environ:
         live_by(SteppedClock(Path(os.environ[STEP_FILE])))
-    return run_station()
+    watch = Watch()
+    settle = pacemaker.settle
+
+    def settle_and_watch() -> None:
+        settle()
+        watch.begin()
+
+    pacemaker.settle = settle_and_watch
+    code = run_station()
+    if INSIDE_FILE in os.environ:
+        watch.write(Path(os.environ[INSIDE_FILE]))
+    return code
 
 
 if __name__ == "__main__":
