@@ -65,12 +65,12 @@ def free_speed(target: JointTarget | None, age_s: float, config: GateConfig) -> 
 
 
 def _falling(value: float, full: float, none: float) -> float:
-    return min(max((none - value) / (none - full), 0.0), 1.0)
+    return min(1.0, max(0.0, (none - value) / (none - full)))  # in this order 0 for what is not a number
 
 
 def lost(target: JointTarget | None, age_s: float, free: Joints, config: GateConfig) -> str:
     """Why the healthy arm cannot be followed at all, in plain words; "" = it can (SR-4)."""
-    if age_s > config.stale_s:
+    if not age_s <= config.stale_s:
         return "No sensor sees the patient now."
     if target is None:
         return "The healthy arm is not seen well enough to follow."

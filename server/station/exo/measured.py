@@ -47,7 +47,7 @@ def fault(inputs: SafetyInputs, astray_s: Joints, share: Joints) -> str:
     Args:
         inputs: the tick's.
         astray_s: `astray` so far.
-        share: of the drive's stiffness, as last commanded; below 1 the person may move the joint too.
+        share: of the drive's stiffness, but for the walls; below 1 the person may move the joint too.
     """
     for i, joint in enumerate(inputs.limits):
         reason = _joint_fault(inputs, i, joint, yields=share[i] < 1.0) or _gone_astray(joint.joint, astray_s[i])

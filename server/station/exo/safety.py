@@ -7,9 +7,10 @@ from dataclasses import replace
 from server.config import GateConfig
 from server.messages import Assistance, DriveState, OpenSession, SetAssistance, Wish
 from server.station.exo import assistance, evidence, gate, measured, resistance, set_points, softness
+from server.station.exo.assistance import Help
 from server.station.exo.driver import JOINT_COUNT, ONE, ZERO, DriveCommand, DriveMode, DriveReading, Joints
 from server.station.exo.evidence import SafetyInputs
-from server.station.exo.gate import Facts
+from server.station.exo.gate import Facts, GateState
 from server.station.exo.limiter import Motion
 from server.station.exo.mapping import JointTarget
 from server.station.exo.safety_state import SafetyState
@@ -52,7 +53,7 @@ def _as_chosen(state: SafetyState, wanted: Wish) -> SafetyState:
     if not isinstance(wanted, SetAssistance):
         return state
     # An arm that the drive did not lead stiffly need not be where its set-point is: it is led from where it is.
-    goes_on = wanted.mode is state.help.mode or min(state.share) >= 1.0
+    goes_on = wanted.mode is state.help.mode or min(state.help.share) >= 1.0
     return replace(
         state,
         help=assistance.chosen(state.help, wanted.mode, wanted.level),
@@ -69,35 +70,24 @@ def step(
     state: SafetyState, inputs: SafetyInputs, config: GateConfig, now_s: float
 ) -> tuple[SafetyState, DriveCommand]:
     """One tick: judge, change state where that is due, move the set-points inside every limit."""
-    elapsed_s = 0.0 if state.last_s is None else max(now_s - state.last_s, 0.0)
+    elapsed_s = 0.0 if state.last_s is None else max(0.0, now_s - state.last_s)
     dt_s = min(max(elapsed_s, SHORTEST_STEP_S), LONGEST_STEP_S)
-    inputs = replace(inputs, reading=measured.sound(inputs.reading, state.angle_rad, now_s))
+    reading = measured.sound(inputs.reading, state.angle_rad, now_s)
+    inputs = inputs if reading is inputs.reading else replace(inputs, reading=reading)
     target = evidence.usable(inputs.target)
     free = evidence.free_speed(target, inputs.evidence_age_s, config)
-    state = _judged(_watched(state, inputs, elapsed_s), inputs, target, free, elapsed_s, config)
-    state = _yielding(replace(state, gate=gate.watch(state.gate, state.facts, config, now_s), last_s=now_s), inputs)
-    if state.gate.state is not DriveState.ENGAGED:
-        return _rest(state, inputs, dt_s)
-    if not state.facts.leads:
-        return _told(set_points.left_free(state, inputs), inputs, dt_s, ())
-    if target is None:  # cannot be: a lost target is no state to be engaged in
-        return _rest(state, inputs, dt_s)
-    state, clamped = set_points.led(state, inputs, target, free, dt_s, config)
-    return _told(state, inputs, dt_s, clamped)
+    state = _judged(state, inputs, target, free, elapsed_s, config)
+    after = gate.watch(state.gate, state.facts, config, now_s)
+    state = replace(state, gate=after, yielded_at=_yielded_at(state, after, inputs), last_s=now_s)
+    if after.state is DriveState.ENGAGED and not state.facts.leads:
+        return _moved(set_points.left_free(state, inputs), inputs, (), dt_s)
+    if after.state is DriveState.ENGAGED and target is not None:
+        state, clamped = set_points.led(state, inputs, target, free, dt_s, config)
+        return _moved(state, inputs, clamped, dt_s)
+    return _rest(state, inputs, dt_s)
 
 
 # ---------------------------------------------------------------- judging
-
-
-def _watched(state: SafetyState, inputs: SafetyInputs, elapsed_s: float) -> SafetyState:
-    """What has to last to count: resistance, and a joint that does not follow."""
-    led = state.gate.state is not DriveState.ENGAGED or _leads(state, inputs)
-    return replace(
-        state,
-        # Whom the drive does not lead cannot resist it; a wall is leant on.
-        strained_s=resistance.strained(state.strained_s, inputs, state.velocity_rad_s, elapsed_s) if led else ZERO,
-        astray_s=measured.astray(state.astray_s, inputs, state.angle_rad, state.share, elapsed_s),
-    )
 
 
 def _judged(
@@ -108,36 +98,49 @@ def _judged(
     elapsed_s: float,
     config: GateConfig,
 ) -> SafetyState:
-    """The tick's facts."""
+    """The tick's facts, and what has to last to become one."""
     engaged = state.gate.state is DriveState.ENGAGED
+    leads = _leads(state, inputs)
     # A twist or an elbow that cannot be told (a straight or hidden forearm) is held alone, and the upper arm still
     # mirrors; a swing that cannot be told leaves nothing to mirror.
     frozen_s = 0.0 if free[1] else state.frozen_s + elapsed_s
     lost = evidence.lost(target, inputs.evidence_age_s, free, config)
     if not lost and frozen_s > (config.resume_within_s if engaged else 0.0):
         lost = "The healthy arm's position is too uncertain."
+    strained_s, astray_s = _strained(state, inputs, elapsed_s), _astray(state, inputs, elapsed_s)
     facts = Facts(
         blockers=_blockers(state, inputs),
-        fault=_fault(state, inputs),
+        fault=_fault(state, inputs, astray_s),
         silence=_silence(inputs, elapsed_s, config),
-        give_way=resistance.give_way(state.strained_s, inputs, state.share),
+        give_way=resistance.give_way(strained_s, inputs, state.help.share),
         lost=lost,
         far=evidence.far(target, inputs, free, config),
-        leads=_leads(state, inputs),
+        leads=leads,
         can_comply=inputs.device.can_comply,
         near=state.at_rest and evidence.near(target, inputs, free, config),
     )
-    return replace(state, facts=facts, frozen_s=frozen_s, speed=free)
+    return replace(state, facts=facts, frozen_s=frozen_s, speed=free, strained_s=strained_s, astray_s=astray_s)
+
+
+def _strained(state: SafetyState, inputs: SafetyInputs, elapsed_s: float) -> Joints:
+    """Whom the drive does not lead cannot resist it: a person leans on a wall."""
+    if state.gate.state is DriveState.ENGAGED and not _leads(state, inputs):
+        return ZERO
+    return resistance.strained(state.strained_s, inputs, state.velocity_rad_s, elapsed_s)
+
+
+def _astray(state: SafetyState, inputs: SafetyInputs, elapsed_s: float) -> Joints:
+    return measured.astray(state.astray_s, inputs, state.angle_rad, state.help.share, elapsed_s)
 
 
 def _leads(state: SafetyState, inputs: SafetyInputs) -> bool:
     return state.help.mode is not Assistance.FREE or not inputs.device.can_comply
 
 
-def _fault(state: SafetyState, inputs: SafetyInputs) -> str:
+def _fault(state: SafetyState, inputs: SafetyInputs, astray_s: Joints) -> str:
     """A waiting arm may be moved by hand; one that moves or is held is watched."""
     watched = state.gate.state in (DriveState.ENGAGED, DriveState.HOLD)
-    return inputs.reading.fault or (measured.fault(inputs, state.astray_s, state.share) if watched else "")
+    return inputs.reading.fault or (measured.fault(inputs, astray_s, state.help.share) if watched else "")
 
 
 def _blockers(state: SafetyState, inputs: SafetyInputs) -> tuple[str, ...]:
@@ -151,17 +154,18 @@ def _blockers(state: SafetyState, inputs: SafetyInputs) -> tuple[str, ...]:
 def _silence(inputs: SafetyInputs, elapsed_s: float, config: GateConfig) -> str:
     if inputs.interrupted:
         return inputs.interrupted
-    if inputs.service_age_s > config.heartbeat_s:
+    if not inputs.service_age_s <= config.heartbeat_s:
         return "The service is silent; nobody could be heard."
     if not inputs.authority:
         return "Nobody who is in charge is connected."
     return f"The control loop stood still for {elapsed_s:.2f} s." if elapsed_s > config.stale_s else ""
 
 
-def _yielding(state: SafetyState, inputs: SafetyInputs) -> SafetyState:
-    if not state.gate.compliant:
-        return replace(state, yielded_at=None)
-    return state if state.yielded_at is not None else replace(state, yielded_at=inputs.reading.angle_rad)
+def _yielded_at(state: SafetyState, after: GateState, inputs: SafetyInputs) -> Joints | None:
+    """Where the arm is held that began to resist."""
+    if not after.compliant:
+        return None
+    return inputs.reading.angle_rad if state.yielded_at is None else state.yielded_at
 
 
 # ---------------------------------------------------------------- the command
@@ -170,9 +174,8 @@ def _yielding(state: SafetyState, inputs: SafetyInputs) -> SafetyState:
 def _rest(state: SafetyState, inputs: SafetyInputs, dt_s: float) -> tuple[SafetyState, DriveCommand]:
     state = set_points.rested(state, inputs, dt_s)
     soft = _soft(state, inputs)
-    state = replace(state, help=assistance.at_rest(state.help, soft, dt_s))
     mode = DriveMode.HOLD if state.at_rest else DriveMode.FOLLOW
-    return _commanded(mode, state, inputs, soft, state.gate.reason, ())
+    return _commanded(mode, state, assistance.at_rest(state.help, soft, dt_s), soft, inputs, ())
 
 
 def _soft(state: SafetyState, inputs: SafetyInputs) -> tuple[bool, ...]:
@@ -183,27 +186,27 @@ def _soft(state: SafetyState, inputs: SafetyInputs) -> tuple[bool, ...]:
     return tuple(stopped and soft for soft in inputs.device.soft_stop)
 
 
-def _told(
-    state: SafetyState, inputs: SafetyInputs, dt_s: float, clamped: tuple[str, ...]
+def _moved(
+    state: SafetyState, inputs: SafetyInputs, clamped: tuple[str, ...], dt_s: float
 ) -> tuple[SafetyState, DriveCommand]:
     error_rad = tuple(m - s for m, s in zip(inputs.reading.angle_rad, state.angle_rad, strict=True))
-    state = replace(state, help=assistance.helped(state.help, error_rad, dt_s))
-    return _commanded(DriveMode.FOLLOW, state, inputs, (False,) * JOINT_COUNT, "", clamped)
+    helped = assistance.helped(state.help, error_rad, dt_s)
+    return _commanded(DriveMode.FOLLOW, state, helped, (False,) * JOINT_COUNT, inputs, clamped)
 
 
 def _commanded(
     mode: DriveMode,
     state: SafetyState,
-    inputs: SafetyInputs,
+    helped: Help,
     soft: tuple[bool, ...],
-    reason: str,
+    inputs: SafetyInputs,
     clamped: tuple[str, ...],
 ) -> tuple[SafetyState, DriveCommand]:
     """The command; a drive that cannot comply is told nothing of softness, and is not given less than it needs."""
     walls = softness.wall(inputs)
     if not inputs.device.can_comply:
-        state, soft = replace(state, help=replace(state.help, share=ONE)), (False,) * JOINT_COUNT
-    state = replace(state, share=tuple(map(max, state.help.share, walls)))
-    bound_nm = softness.torque_nm(inputs, soft, walls)
-    command = DriveCommand(mode, state.angle_rad, state.velocity_rad_s, reason, clamped, state.share, bound_nm)
-    return state, command
+        helped, soft = replace(helped, share=ONE), (False,) * JOINT_COUNT
+    share = tuple(map(max, helped.share, walls))
+    state = replace(state, help=helped)
+    reason, bound_nm = state.gate.reason, softness.torque_nm(inputs, soft, walls)
+    return state, DriveCommand(mode, state.angle_rad, state.velocity_rad_s, reason, clamped, share, bound_nm)

@@ -31,8 +31,6 @@ class SafetyState:
     frozen_s: float = 0.0
     """How long the swing has been held by uncertainty."""
     help: Help = field(default_factory=Help)
-    share: Joints = ONE
-    """0..1 of the drive's stiffness per joint, as last commanded: the help's, and the walls'."""
     strained_s: Joints = ZERO
     """For how long each joint has been resisting (SR-18)."""
     astray_s: Joints = ZERO

@@ -7,6 +7,7 @@ from dataclasses import replace
 from server.config import GateConfig
 from server.messages import EXO_JOINTS, DriveState
 from server.station.exo import evidence
+from server.station.exo.brake import Brake
 from server.station.exo.driver import ONE, Joints
 from server.station.exo.evidence import SafetyInputs
 from server.station.exo.limiter import Box, Motion, to_rest, towards
@@ -62,14 +63,16 @@ def _clamped(joint: str, goal_rad: float, free: float, box: Box) -> list[str]:
 
 
 def as_measured(inputs: SafetyInputs) -> tuple[Motion, ...]:
-    """Set-points where the arm is, moving as it moves, no faster than its limits: nothing pulls at it."""
+    """Set-points where the arm is, moving as it moves, but no faster than its limits and the room ahead allow."""
     return tuple(map(_measured, inputs.reading.angle_rad, inputs.reading.velocity_rad_s, inputs.boxes))
 
 
 def _measured(angle_rad: float, velocity_rad_s: float, box: Box) -> Motion:
     if abs(velocity_rad_s) < STILL_RAD_S:
         return Motion(angle_rad)
-    return Motion(angle_rad, min(max(velocity_rad_s, -box.velocity_rad_s), box.velocity_rad_s))
+    moving = Motion(angle_rad, min(max(velocity_rad_s, -box.velocity_rad_s), box.velocity_rad_s))
+    brake = Brake.of(moving, box.acceleration_rad_s2, box.jerk_rad_s3)
+    return moving if box.low_rad <= brake.low_rad and brake.high_rad <= box.high_rad else Motion(angle_rad)
 
 
 def left_free(state: SafetyState, inputs: SafetyInputs) -> SafetyState:
@@ -96,7 +99,7 @@ def _taken_over(state: SafetyState, inputs: SafetyInputs) -> tuple[Motion, ...]:
     """An arm that was not led stiffly need not be where its set-point is: it is brought to rest from where it is."""
     return tuple(
         here if share < 1.0 else motion
-        for share, motion, here in zip(state.share, state.motions, as_measured(inputs), strict=True)
+        for share, motion, here in zip(state.help.share, state.motions, as_measured(inputs), strict=True)
     )
 
 

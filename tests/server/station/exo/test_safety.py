@@ -30,7 +30,7 @@ DEVICE = device_of(STATION.exoskeleton, can_comply=True)
 DT_S = 0.01
 FREE = (1.0,) * 4
 SURE = (0.1,) * 4
-TICKS = 6_000
+TICKS = 1_500
 SAG_RAD = 0.01
 """How far an arm may be measured from its set-point while it is held."""
 
