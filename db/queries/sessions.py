@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from sqlalchemy import delete
-from sqlmodel import Session, col, select
+from sqlmodel import Session, col, func, select
 from sqlmodel.sql.expression import Select
 
 from db.account import Account
@@ -60,6 +60,12 @@ def last_event(session: Session, session_id: int, kind: str) -> Event | None:
     """The newest event of a kind."""
     found = select(Event).where(Event.session_id == session_id, Event.kind == kind).order_by(col(Event.id).desc())
     return session.exec(found).first()
+
+
+def count_events(session: Session, session_id: int, kind: str, text: str) -> int:
+    """How many events of a kind say exactly that."""
+    found = select(func.count()).where(Event.session_id == session_id, Event.kind == kind, Event.text == text)
+    return session.exec(found).one()
 
 
 def replace_metrics(session: Session, session_id: int, metrics: Iterable[Metric]) -> None:

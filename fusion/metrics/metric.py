@@ -9,6 +9,10 @@ from fusion.skeleton import Side
 
 PASSIVE_DRIVE: Final = "caveat.passive_drive"
 """The exoskeleton moved the arm, so the figure measures the drive and not the patient."""
+ESTIMATED_TORQUE: Final = "caveat.estimated_torque"
+"""The arm's torque is what the drive's own does not explain: it is as good as the model of the arm."""
+CARRIED_WEIGHT: Final = "caveat.carried_weight"
+"""The drive's part contains carrying the arm's weight."""
 SENSOR_NOISE: Final = "caveat.sensor_noise"
 """The sensors' noise is a good part of the figure; compare within one set-up only."""
 
@@ -20,7 +24,7 @@ class Metric:
     name: str
     value: float
     unit: str
-    """SI: m, s, rad, m/s, Hz; min for minutes, 1 for counts and ratios."""
+    """SI: m, s, rad, m/s, Hz, N m, J; min for minutes, 1 for counts and ratios."""
     joint: str | None = None
     """The exoskeleton joint it is of, or the sensor's name in a sensor's figures."""
     side: Side | None = None

@@ -22,7 +22,7 @@ TOLD_RAD: Final = radians(30.0)
 
 def range_metrics(record: SessionRecord) -> list[Metric]:
     """Lowest and highest angle and the range between them, per joint and arm, while the arm was driven."""
-    affected_caveat = PASSIVE_DRIVE if record.mode == "passive" else None
+    affected_caveat = PASSIVE_DRIVE if record.is_driven else None
     healthy = _arm(record.healthy_rad, record.engaged & record.healthy_valid, record.healthy_side, None)
     affected = _arm(record.affected_rad, record.engaged, record.healthy_side.other, affected_caveat)
     return healthy + affected

@@ -13,6 +13,9 @@ from fusion.skeleton import Side
 
 JOINTS: Final = ("plane", "elevation", "rotation", "elbow")
 """The columns of the angle arrays: the exoskeleton's joints, in its order."""
+PASSIVE: Final = "passive"
+LONGEST_TICK_S: Final = 0.5
+"""A longer hole between ticks is time about which nothing is known, and counts for no state."""
 ENGAGED: Final = "engaged"
 """The state in which the exoskeleton follows the mirror."""
 
@@ -25,6 +28,23 @@ class SensorTrack:
     frames_per_s: Floats  # (T,)
     residual_m: Floats  # (T,) to the reference sensor after alignment
     age_s: Floats  # (T,) since its last frame
+
+
+@dataclass(frozen=True, slots=True)
+class DriveTrack:
+    """The drive, and the affected arm in it, over the session's ticks; joints in the columns."""
+
+    velocity_rad_s: Floats  # (T, 4) measured
+    torque_nm: Floats  # (T, 4) of the drive, with what carries the arm
+    interaction_nm: Floats  # (T, 4) of the arm beyond its expected weight and inertia, + towards larger angles
+    share: Floats  # (T, 4) 0..1 of the drive's stiffness that helps
+    assistance: NDArray[np.str_]  # (T,) passive, assisted, free
+    level: Floats  # (T,) 0..1, the most help while assisted
+
+    @property
+    def measures_interaction(self) -> bool:
+        """Whether the drive tells what the arm does; one that cannot gives nothing but zeros."""
+        return bool(self.interaction_nm.any())
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,10 +63,23 @@ class SessionRecord:
     hits: int
     """Targets collected."""
     misses: int
-    mode: str = "passive"
-    """How the affected arm was moved: passive = by the exoskeleton alone."""
+    pain_calls: int = 0
+    """How often somebody said that it hurts."""
+    drive: DriveTrack | None = None
+    """None in recordings from before it was told: the exoskeleton alone moved the arm."""
 
     @property
     def engaged(self) -> Flags:
         """(T,) whether the exoskeleton followed."""
         return np.asarray(self.state == ENGAGED)
+
+    @property
+    def spans_s(self) -> Floats:
+        """(T,) how long each tick's state lasted; of the last one, and of one before a hole, nothing is known."""
+        spans = np.diff(self.t_s, append=self.t_s[-1:])
+        return np.where(spans <= LONGEST_TICK_S, spans, 0.0)
+
+    @property
+    def is_driven(self) -> bool:
+        """Whether the exoskeleton alone moved the arm in some part of the session."""
+        return self.drive is None or bool((self.engaged & (self.drive.assistance == PASSIVE)).any())

@@ -7,6 +7,7 @@ from math import isfinite
 from typing import Final
 
 from fusion.metrics.activity import activity_metrics
+from fusion.metrics.effort import effort_metrics
 from fusion.metrics.metric import Metric
 from fusion.metrics.posture import posture_metrics
 from fusion.metrics.range_of_movement import range_metrics
@@ -20,6 +21,7 @@ FAMILIES: Final[tuple[Callable[[SessionRecord], list[Metric]], ...]] = (
     reach_metrics,
     range_metrics,
     symmetry_metrics,
+    effort_metrics,
     posture_metrics,
     sensor_metrics,
 )

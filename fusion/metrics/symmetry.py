@@ -33,7 +33,7 @@ class Likeness:
 
 def symmetry_metrics(record: SessionRecord) -> list[Metric]:
     """Symmetry and lag per joint while the arm was driven."""
-    caveat = PASSIVE_DRIVE if record.mode == "passive" else None
+    caveat = PASSIVE_DRIVE if record.is_driven else None
     found: list[Metric] = []
     for joint in JOINTS:
         pairs = _pairs(record, joint)

@@ -9,7 +9,7 @@ from fusion.errors import RefusedError
 from server.api.authority import Authority, Client
 from server.api.course import Course
 from server.api.forms import Action, Answer, AssistanceForm, AuthorityPublic, Follow, MeasuredRange
-from server.api.journal import Journal
+from server.api.journal import CONTROL, Journal
 from server.api.measured_range import RangeMeter, moves_freely
 from server.api.station_link import StationLink
 from server.messages import (
@@ -60,7 +60,7 @@ class Controls:
                 "end this session and open a new one",
             )
         answer = await self._link.ask(_wish_for(action, client.account))
-        self._journal.note(session_id, "control", action, by=client.account)
+        self._journal.note(session_id, CONTROL, action, by=client.account)
         return _answer(answer)
 
     async def help(self, session_id: int, form: AssistanceForm, client: Client) -> Answer:

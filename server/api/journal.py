@@ -22,6 +22,8 @@ KEPT = 10_000
 """Events that wait for a database that does not answer; beyond that the newest are dropped and logged."""
 SCORE = "score"
 """Kind of the events that keep the game's count; a crash loses nothing of it."""
+CONTROL = "control"
+"""Kind of the events that say what people wanted of the arm."""
 RETRY_S = 0.5
 TRIES = 10
 

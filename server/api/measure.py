@@ -12,7 +12,7 @@ import numpy as np
 from db.therapy_session import MetricBase
 from fusion.messages import Floats
 from fusion.metrics.metric import Metric
-from fusion.metrics.record import SensorTrack, SessionRecord
+from fusion.metrics.record import DriveTrack, SensorTrack, SessionRecord
 from fusion.metrics.session import session_metrics
 from fusion.skeleton import Side
 from server.api.forms import Curves, JointCurves
@@ -24,23 +24,25 @@ CURVE_POINTS = 1500
 
 
 @dataclass(frozen=True, slots=True)
-class Score:
-    """What the game counted."""
+class Counts:
+    """What was counted while the session lasted."""
 
     hits: int = 0
     misses: int = 0
+    pain_calls: int = 0
+    """How often somebody said that it hurts."""
 
 
-def measure(recording: Path, healthy_side: Side, score: Score) -> list[MetricBase]:
+def measure(recording: Path, healthy_side: Side, counts: Counts) -> list[MetricBase]:
     """The figures of a session.
 
     Raises:
         RecordingError: the recording cannot be read, or holds no tick.
     """
-    return [_row(metric) for metric in session_metrics(session_record(read_ticks(recording), healthy_side, score))]
+    return [_row(metric) for metric in session_metrics(session_record(read_ticks(recording), healthy_side, counts))]
 
 
-def session_record(ticks: Sequence[RecordedTick], healthy_side: Side, score: Score) -> SessionRecord:
+def session_record(ticks: Sequence[RecordedTick], healthy_side: Side, counts: Counts) -> SessionRecord:
     """A session's ticks as the arrays that metrics are made of."""
     return SessionRecord(
         t_s=np.array([tick.t_s for tick in ticks]),
@@ -52,8 +54,24 @@ def session_record(ticks: Sequence[RecordedTick], healthy_side: Side, score: Sco
         hand_in_trunk=_rows([None if tick.healthy is None else tick.healthy.points_in_trunk[3] for tick in ticks], 3),
         trunk_displacement_m=np.array([tick.trunk_lean_m for tick in ticks]),
         sensors=tuple(_track(name, ticks) for name in sorted({s.sensor for tick in ticks for s in tick.sensors})),
-        hits=score.hits,
-        misses=score.misses,
+        hits=counts.hits,
+        misses=counts.misses,
+        pain_calls=counts.pain_calls,
+        drive=_drive(ticks),
+    )
+
+
+def _drive(ticks: Sequence[RecordedTick]) -> DriveTrack | None:
+    exos = [tick.exo for tick in ticks]
+    if not all(len(exo.interaction_nm) == len(exo.share) == len(EXO_JOINTS) for exo in exos):
+        return None
+    return DriveTrack(
+        velocity_rad_s=np.array([exo.velocity_rad_s for exo in exos]),
+        torque_nm=np.array([exo.torque_nm for exo in exos]),
+        interaction_nm=np.array([exo.interaction_nm for exo in exos]),
+        share=np.array([exo.share for exo in exos]),
+        assistance=np.array([exo.assistance.value for exo in exos]),
+        level=np.array([exo.level for exo in exos]),
     )
 
 

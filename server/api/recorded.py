@@ -9,10 +9,13 @@ import msgspec
 
 from fusion.errors import RecordingError
 from fusion.recording.log_reader import LogReader
-from server.messages import DriveState, Point
+from server.messages import Assistance, DriveState, Point
 
 EVERY = 2
 """Every second tick: 50 Hz are enough for every figure, and half the work."""
+
+
+Joints = tuple[float, float, float, float]
 
 
 class RecordedArm(msgspec.Struct, frozen=True, gc=False):
@@ -29,7 +32,14 @@ class RecordedArm(msgspec.Struct, frozen=True, gc=False):
 class RecordedExo(msgspec.Struct, frozen=True, gc=False):
     """Of `ExoView`."""
 
-    angle_rad: tuple[float, float, float, float]
+    angle_rad: Joints
+    velocity_rad_s: Joints
+    torque_nm: Joints
+    interaction_nm: tuple[float, ...] = ()
+    """Empty in recordings from before it was told, as is `share`."""
+    share: tuple[float, ...] = ()
+    assistance: Assistance = Assistance.PASSIVE
+    level: float = 1.0
 
 
 class RecordedSensor(msgspec.Struct, frozen=True, gc=False):

@@ -20,9 +20,9 @@ from db.therapy_session import (
 from server import __version__
 from server.api.errors import not_found
 from server.api.forms import SessionOpen
-from server.api.journal import SCORE
+from server.api.journal import CONTROL, SCORE
 from server.api.limits import snapshots
-from server.api.measure import Score
+from server.api.measure import Counts
 from server.messages import JointLimits
 
 
@@ -101,11 +101,13 @@ def store_metrics(database: Database, session_id: int, metrics: Iterable[MetricB
             found.measured = True
 
 
-def last_score(database: Database, session_id: int) -> Score:
-    """What the game had counted when it last noted its score."""
+def counts(database: Database, session_id: int) -> Counts:
+    """What the game had counted when it last noted its score, and how often pain was called."""
     with database.session() as session:
         noted = sessions.last_event(session, session_id, SCORE)
-    return Score() if noted is None else Score(noted.data.get("hits", 0), noted.data.get("misses", 0))
+        pain_calls = sessions.count_events(session, session_id, CONTROL, "pain")
+    score = {} if noted is None else noted.data
+    return Counts(score.get("hits", 0), score.get("misses", 0), pain_calls)
 
 
 def public(database: Database, session_id: int) -> SessionPublic:

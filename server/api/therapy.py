@@ -181,8 +181,8 @@ class Therapy:
 
     def _measure_now(self, session_id: int) -> None:
         found = session_store.existing_session(self._database, session_id)
-        score = session_store.last_score(self._database, session_id)
-        metrics = measure(self._data / found.recording, Side(found.affected_side).other, score)
+        counts = session_store.counts(self._database, session_id)
+        metrics = measure(self._data / found.recording, Side(found.affected_side).other, counts)
         session_store.store_metrics(self._database, session_id, metrics)
 
     async def _open_at_station(self, begun: TherapySession, patient: Patient, limits: tuple[JointLimits, ...]) -> None:

@@ -151,6 +151,8 @@ def test_sr11_the_patients_screen_never_comes_into_charge(shared, in_charge, scr
     form = {"patient_id": in_charge.session["patient_id"], "confirmed_affected_side": "left"}
     assert page.post("/api/sessions", **form).status_code == 403
     assert page.post(f"{in_charge.path}/control", action="pain").json()["state"] == "hold"
+    ended = in_charge.post(f"{in_charge.path}/end").json()
+    assert [metric["value"] for metric in ended["metrics"] if metric["name"] == "pain_calls"] == [1]
 
 
 def test_sr11_it_is_noted_when_nobody_is_in_charge(shared, therapist, in_charge):
