@@ -7,7 +7,7 @@ from pathlib import Path
 from fusion.errors import MachineError
 from fusion.recording.log import LogAbout
 from server.config import StationConfig
-from server.messages import CloseSession, FollowBody, Hold, OpenSession, Pain, SessionClosed, Stop, Wish
+from server.messages import CloseSession, FollowBody, Hold, OpenSession, Pain, Reset, SessionClosed, Stop, Wish
 from server.station.exo import patient_range, safety
 from server.station.exo.driver import Drive
 from server.station.exo.safety_state import SafetyState
@@ -45,6 +45,9 @@ class Desk:
             return self._follow(wish, state, now_s), ""
         if isinstance(wish, Stop | Pain):
             self._last_stop = wish.number
+        if isinstance(wish, Reset):
+            # The gate refuses until the drive's fault is gone, so a drive that needs this is asked for twice.
+            self._drive.reset()
         return safety.wish(state, wish, now_s)
 
     def leave(self, state: SafetyState, now_s: float) -> SafetyState:

@@ -87,6 +87,10 @@ class Drive(Protocol):
         """A patient's arm is put in, by hand, inside these limits; the device is told its range."""
         ...
 
+    def reset(self) -> None:
+        """A person asks to leave a fault (SR-5): the drive comes back holding where it stands, if its cause is gone."""
+        ...
+
     def command(self, command: DriveCommand, now_s: float) -> None:
         """Give the tick's command."""
         ...

@@ -85,6 +85,9 @@ class SimulatedDrive:
             inside.append(min(max(angle, joint.min_rad + inset), joint.max_rad - inset))
         self._put_in(tuple(inside))
 
+    def reset(self) -> None:
+        """Its faults end with their causes; there is nothing to leave."""
+
     def command(self, command: DriveCommand, now_s: float) -> None:
         """Take over a command; one that is not all numbers is a fault, and counts as one that did not come."""
         self._advance(now_s)

@@ -129,7 +129,7 @@ class Cia402Drive:
             self._map.anatomical_rad(self._joints_rad()),
             self._map.anatomical_rad_s([units.rad(link.details.velocity) for link, units in links]),
             self._map.anatomical_nm([units.nm(link.measured.torque) for link, units in links]),
-            self._guard.fault,
+            self._guard.said,
             self._map.anatomical_nm([self._interaction_nm(link, units) for link, units in links]),
         )
 

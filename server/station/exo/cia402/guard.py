@@ -13,6 +13,7 @@ log = logging.getLogger(__name__)
 
 POWER_WITHIN_S = 1.0
 """From the first look, or a person's reset, to every drive in operation."""
+COMING_BACK = "The drives are being switched on again; they do not hold yet."
 
 
 class Guard:
@@ -29,6 +30,12 @@ class Guard:
         self.powered = False
         """Every drive is in operation."""
         self._asked_s: float | None = None
+        self._coming_back = False
+
+    @property
+    def said(self) -> str:
+        """The fault, or that a reset is still under way: until every drive holds, there is one."""
+        return self.fault or (COMING_BACK if self._coming_back else "")
 
     def judge(self, now_s: float, said: str) -> bool:
         """Look once per tick.
@@ -54,6 +61,7 @@ class Guard:
         for link in self._links:
             link.emergency = 0
         self.fault, self.wanted, self.powered, self._asked_s = "", Wanted.RESET, False, None
+        self._coming_back = True
 
     def stand(self) -> None:
         """The end: quick stop."""
@@ -66,7 +74,7 @@ class Guard:
         """On the way to operation; a fault that a person asked to leave is no news until the time is over."""
         waiting, found = self._waiting(), self._trouble(now_s)
         if not waiting and not found:
-            self.powered, self.wanted = True, Wanted.ENABLED
+            self.powered, self.wanted, self._coming_back = True, Wanted.ENABLED, False
             return ""
         if self._asked_s is not None and now_s - self._asked_s > POWER_WITHIN_S:
             return found or _first(map(not_enabled, waiting))

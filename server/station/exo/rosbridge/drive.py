@@ -83,6 +83,9 @@ class RosbridgeDrive:
         inside = np.column_stack((np.maximum(self._range, fitted)[:, 0], np.minimum(self._range, fitted)[:, 1]))
         self._ends = np.where(self._rests[:, None], self._range, inside)
 
+    def reset(self) -> None:
+        """Its faults end with their causes; there is nothing to leave."""
+
     def command(self, command: DriveCommand, now_s: float) -> None:
         """Send the command's trajectory, unless the robot is somewhere else than it is told to be."""
         measured = self._measured(self._states)
