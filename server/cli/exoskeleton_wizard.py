@@ -32,13 +32,16 @@ class Seen:
 
 
 LOOKS: Final[dict[Follows, Seen]] = {
-    Follows.PLANE: Seen("plane of elevation", "arm to the side", "forwards", "backwards"),
-    Follows.ELEVATION: Seen("elevation", "arm hangs", "up", "down"),
-    Follows.ROTATION: Seen("rotation of the upper arm", "bent forearm points ahead", "inwards", "outwards"),
+    Follows.PLANE: Seen("plane of elevation", "arm to the side", "go forwards", "go backwards"),
+    Follows.ELEVATION: Seen("elevation", "arm hangs", "go up", "go down"),
+    Follows.ROTATION: Seen("rotation of the upper arm", "bent forearm points ahead", "turn inwards", "turn outwards"),
     Follows.AXIAL_ROTATION: Seen(
-        "axial rotation of the upper arm", "bent forearm points ahead of an arm to the side", "inwards", "outwards"
+        "axial rotation of the upper arm",
+        "bent forearm points ahead of an arm to the side",
+        "turn inwards",
+        "turn outwards",
     ),
-    Follows.ELBOW: Seen("elbow flexion", "straight", "to bend", "to straighten"),
+    Follows.ELBOW: Seen("elbow flexion", "straight", "bend", "straighten"),
 }
 
 
@@ -100,7 +103,9 @@ def _visit(index: int, joint: ExoskeletonJoint, mover: Mover, by_rad: float, per
     looks, here = LOOKS[joint.follows], degrees(_anatomical(joint, mover.joint_rad(index)))
     way = looks.more if by_rad > 0 else looks.less
     where = f"{looks.name}, now {here:.1f}°; 0° = {looks.zero}"
-    if not person.agrees(f"Move '{joint.name}' ({where}) slowly by {degrees(by_rad):+.0f}°: it should go {way}?"):
+    if not person.agrees(
+        f"Move '{joint.name}' ({where}) slowly by {degrees(by_rad):+.0f}°, so that the arm will {way}?"
+    ):
         person.say("It is held.")
         return {}
     _move(index, joint, mover, by_rad, person)
@@ -132,7 +137,7 @@ def _move(index: int, joint: ExoskeletonJoint, mover: Mover, by_rad: float, pers
 
 def _judged(index: int, joint: ExoskeletonJoint, mover: Mover, way: str, person: Dialogue) -> dict[str, float]:
     """What a person saw."""
-    seen = person.ask(f"Did it go {way}? [y = yes, n = the other way, anything else = not sure] ").strip().lower()
+    seen = person.ask(f"Did the arm {way}? [y = yes, n = the other way, anything else = not sure] ").strip().lower()
     if seen not in ("y", "yes", "n", "no"):
         person.say(f"Nothing is concluded of '{joint.name}'.")
         return {}

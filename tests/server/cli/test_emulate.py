@@ -11,9 +11,10 @@ from pathlib import Path
 import pytest
 
 from server.exoskeleton_file import read_exoskeleton
-from server.station.exo.rosbridge.drive import RosbridgeDrive
+from server.station.exo.drives import make_drive
 
-EXAMPLE = Path(__file__).parents[3] / "examples" / "exoskeletons" / "rosbridge-seven-joints.toml"
+EXAMPLES = Path(__file__).parents[3] / "examples" / "exoskeletons"
+EXAMPLE = EXAMPLES / "rosbridge-seven-joints.toml"
 COMMAND = [sys.executable, "-c", "from server.cli.main import main; main()", "emulate"]
 
 
@@ -23,12 +24,27 @@ def test_a_drive_moves_the_emulated_robot_and_a_typed_line_makes_it_fail(tmp_pat
     words = [*COMMAND, "rosbridge", "--exoskeleton", path]
     with subprocess.Popen(words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, bufsize=1) as emulated:
         assert f"listens at ws://127.0.0.1:{unused_tcp_port}" in emulated.stdout.readline()
-        with RosbridgeDrive(read_exoskeleton(path)) as drive:
+        with make_drive(read_exoskeleton(path)) as drive:
             assert drive.read(time.monotonic()).fault == ""
             emulated.stdin.write("silent\n")
             assert "silent=True" in emulated.stdout.readline()
             time.sleep(0.15)
             assert "s old" in drive.read(time.monotonic()).fault
+        emulated.terminate()
+
+
+def test_emulated_nodes_are_opened_over_a_bus_between_processes(tmp_path, unused_tcp_port) -> None:
+    text = (EXAMPLES / "cia402-four-joints.toml").read_text("utf-8").replace('"socketcan"', '"socketcand"')
+    path = tmp_path / "mine.toml"
+    options = f'options = {{ host = "127.0.0.1", port = {unused_tcp_port} }}'
+    path.write_text(text.replace("options = {}", options), "utf-8")
+    words = [*COMMAND, "cia402", "--exoskeleton", path]
+    with subprocess.Popen(words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, bufsize=1) as emulated:
+        assert "listens at socketcand" in emulated.stdout.readline()
+        with make_drive(read_exoskeleton(path)) as drive:
+            assert drive.read(time.monotonic()).angle_rad == pytest.approx((0.9, 0.4, 0.2, 1.0), abs=0.01)
+            emulated.stdin.write("nonsense elbow\n")
+            assert "is no order" in emulated.stdout.readline()
         emulated.terminate()
 
 
