@@ -87,9 +87,11 @@ class RosbridgeDrive:
         """Its faults end with their causes; there is nothing to leave."""
 
     def command(self, command: DriveCommand, now_s: float) -> None:
-        """Send the command's trajectory, unless the robot is somewhere else than it is told to be."""
-        measured = self._measured(self._states)
-        if measured is None:
+        """Send the command's trajectory to a robot that is seen, and seen where it is told to be; others brake."""
+        states = self._states
+        measured = self._measured(states)
+        if measured is None or self._age_s(states, now_s) > STALE_S:
+            self._following = Following()
             return
         if not self._following.joined:
             self._rest = measured  # joints that follow nothing are held where they stand: nothing moves unasked
@@ -107,12 +109,11 @@ class RosbridgeDrive:
         if angles is None:
             return DriveReading(now_s, self._last, ZERO, ZERO, self._link.trouble or "No joint state came yet.")
         joints = [states.joints[name] for name in self._map.names]
-        oldest = min(joints, key=lambda joint: joint.t_s)
-        age_s = now_s - oldest.t_s
+        age_s = self._age_s(states, now_s)
         stale = f"The newest joint state is {age_s:.2f} s old." if age_s > STALE_S else ""
         self._last = self._map.anatomical_rad(angles)
         return DriveReading(
-            oldest.t_s,
+            now_s - age_s,
             self._last,
             self._map.anatomical_rad_s([joint.velocity_rad_s for joint in joints]),
             self._map.anatomical_nm([joint.torque_nm for joint in joints]),
@@ -124,6 +125,10 @@ class RosbridgeDrive:
         if states.missing(self._map.names):
             return None
         return np.array([states.joints[name].angle_rad for name in self._map.names])
+
+    def _age_s(self, states: JointStates, now_s: float) -> float:
+        """Of the oldest joint."""
+        return now_s - min(states.joints[name].t_s for name in self._map.names)
 
     def _send(self, joints: Floats, velocities: Floats) -> None:
         made = trajectory(self._map.names, joints, velocities, self._braking, self._ends, self._settings.lead_s)

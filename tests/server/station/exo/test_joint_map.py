@@ -46,3 +46,20 @@ def test_sr1_angles_inside_the_devices_limits_keep_every_joint_inside_its_own(sh
 
 def test_a_share_goes_to_the_joint_that_follows_its_angle() -> None:
     assert MAP.spread((0.1, 0.2, 0.3, 0.4), resting=1.0).tolist() == [0.1, 0.2, 0.3, 0.4, 1.0, 1.0, 1.0]
+
+
+@given(st.tuples(*[st.floats(-2, 2)] * 4), st.tuples(*[st.floats(0, 1)] * 4), st.tuples(*[st.floats(0, 1)] * 4))
+def test_sr1_the_joints_ranges_hold_every_arm_inside_the_given_ends(
+    low: tuple[float, ...], wide: tuple[float, ...], share: tuple[float, ...]
+) -> None:
+    ends = tuple((start, start + width) for start, width in zip(low, wide, strict=True))
+    ranges = MAP.ranges_rad(ends)
+    joints = MAP.joints_rad([a + s * (b - a) for (a, b), s in zip(ends, share, strict=True)])
+    assert (joints >= ranges[:, 0] - 1e-9).all()
+    assert (joints <= ranges[:, 1] + 1e-9).all()
+
+
+def test_a_joint_that_follows_one_angle_has_exactly_its_range() -> None:
+    elbow = TURNED.joints[3]
+    low, high = MAP.ranges_rad(((0, 1), (0, 1), (0, 1), (0.2, 1.0)))[3]
+    assert sorted(elbow.sign * (end - elbow.offset_rad) for end in (low, high)) == pytest.approx([0.2, 1.0])

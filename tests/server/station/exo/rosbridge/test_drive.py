@@ -115,6 +115,12 @@ def test_sr8_a_robot_that_fails_is_a_fault_in_words_and_well_again_when_it_is(pe
     _until(drive, lambda reading: not reading.fault)
     peer.obey(typed)
     assert said in _until(drive, lambda reading: bool(reading.fault)).fault
+    time.sleep(0.05)  # what was under way arrives
+    followed = peer.trajectories
+    for _ in range(20):
+        drive.command(DriveCommand(DriveMode.HOLD, drive.read(time.monotonic()).angle_rad, ZERO, ""), time.monotonic())
+        time.sleep(0.005)
+    assert typed == "drop" or peer.trajectories == followed  # who cannot be seen is not commanded, and has braked
     peer.obey("well")
     _until(drive, lambda reading: not reading.fault)
 
