@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 
-from fusion.errors import RefusedError
+from fusion.errors import InputError, RefusedError
 from server.api.live import AuthorityView
 
 PAGE_NAME = r"^[A-Za-z0-9_-]{0,64}$"
@@ -23,7 +23,20 @@ class Client:
     account_id: int
     account: str
     page: str
-    """What the page calls itself, so that two browsers of one person are two."""
+    """What the page calls itself, so that two browsers of one person are two; "" can be in charge of nothing."""
+
+    def require_name(self) -> None:
+        """Let only a page that can be told from others go on.
+
+        Raises:
+            InputError: it does not say what it calls itself.
+        """
+        if not self.page:
+            raise InputError(
+                "the page does not say which it is",
+                "the header Mirrorlimb-Client with a name of the page's own, the same as at its stream's opening",
+                "load the page again",
+            )
 
 
 class Connection:
@@ -115,8 +128,10 @@ class Authority:
         """Put that page in charge in another's place.
 
         Raises:
+            InputError: the page has no name.
             RefusedError: somebody is in charge and connected, and that has not been confirmed.
         """
+        client.require_name()
         if self._is_connected and not confirmed and client != self._holder:
             raise RefusedError(
                 f"{self._other(client)} is in charge now", "a confirmation", "confirm that you take over from them"

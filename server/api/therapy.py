@@ -112,10 +112,12 @@ class Therapy:
         """Open a session; the page that does is in charge of it.
 
         Raises:
+            InputError: the page has no name, or there is no such game.
             RefusedError: one is open, the side is not confirmed, nobody has signed for the limits, no movement is
                 possible, the station refuses.
             ApiError: there is no such patient.
         """
+        client.require_name()
         async with self._turn:
             if self._course is not None:
                 raise RefusedError("a session is open already", "one session at a time", "end that session first")

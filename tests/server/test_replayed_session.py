@@ -8,6 +8,7 @@ import sys
 import time
 from contextlib import closing
 from pathlib import Path
+from typing import Any
 
 import httpx
 import pytest
@@ -24,9 +25,12 @@ def replay(recording: Path, port: int) -> subprocess.Popen[bytes]:
     return subprocess.Popen([*command, "--dialect", "kinectv2-osc"], stdout=subprocess.DEVNULL)
 
 
-def opened_session(client: httpx.Client) -> int:
+def enrolled(client: httpx.Client) -> dict[str, Any]:
     client.post("/api/setup", json={"name": NAME, "password": PASSWORD}).raise_for_status()
-    patient = client.post("/api/patients", json={"name": "P-01", "healthy_side": "left"}).raise_for_status().json()
+    return client.post("/api/patients", json={"name": "P-01", "healthy_side": "left"}).raise_for_status().json()
+
+
+def opened_session(client: httpx.Client, patient: dict[str, Any]) -> int:
     form = {"patient_id": patient["id"], "confirmed_affected_side": "right", "pain_before": 1}
     return client.post("/api/sessions", json=form).raise_for_status().json()["id"]
 
@@ -45,10 +49,13 @@ def attend(client: httpx.Client, session: int, sender: subprocess.Popen[bytes]) 
     return seen
 
 
-def test_a_real_recording_becomes_a_stored_session(start_service, recordings: Path) -> None:
+def test_a_real_recording_becomes_a_stored_session(start_service, recordings: Path, look, sign) -> None:
     service = start_service()
-    with httpx.Client(base_url=service.address, timeout=20, trust_env=False) as client:
-        session = opened_session(client)
+    page = {"Mirrorlimb-Client": "dashboard"}
+    with httpx.Client(base_url=service.address, timeout=20, trust_env=False, headers=page) as client:
+        patient = sign(client, enrolled(client))
+        look(client, "dashboard")
+        session = opened_session(client, patient)
         port = client.get("/api/station").raise_for_status().json()["ports"]["kinectv2-osc"]
         sender = replay(recordings / "dual-kinect-study01-obstacle", port)
         seen = attend(client, session, sender)

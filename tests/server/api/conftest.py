@@ -1,6 +1,5 @@
 """The real application on a real port, with the real database; its station made of paper where a test bends it."""
 
-import json
 import socket
 import threading
 from contextlib import contextmanager
@@ -10,8 +9,6 @@ from pathlib import Path
 import httpx
 import pytest
 import uvicorn
-from websockets.exceptions import ConnectionClosed
-from websockets.sync.client import connect
 
 from server.api.app import create_app
 from server.api.auth import COOKIE, AuthSettings
@@ -74,61 +71,6 @@ def shared(tmp_path_factory):
         yield service
 
 
-class Page:
-    """A page that looks, and answers every message, as a browser's does."""
-
-    def __init__(self, service, client, name):
-        self.headers = {"Mirrorlimb-Client": name}
-        self.client = client
-        self.messages = []
-        self.closed_with = None
-        self._answers = True
-        self._socket = connect(
-            f"{service.ws_url}/api/stream?client={name}",
-            additional_headers={"Cookie": f"{COOKIE}={client.cookies[COOKIE]}"},
-            origin=service.url,
-        )
-        self._reader = threading.Thread(target=self._read)
-        self._reader.start()
-
-    def _read(self):
-        try:
-            for text in self._socket:
-                message = json.loads(text)
-                self.messages.append(message)
-                if self._answers:
-                    self._socket.send(json.dumps({"ack": message["tick"]["index"], "drawn_on": "dashboard"}))
-        except ConnectionClosed as closed:
-            self.closed_with = closed.rcvd and closed.rcvd.code
-
-    def post(self, path, **form):
-        """Ask for something, as this page."""
-        return self.client.post(path, json=form, headers=self.headers)
-
-    def pull(self):
-        """The cable is pulled: nothing more is heard of the page, and nobody is told."""
-        self._answers = False
-
-    def close(self):
-        """The page is left."""
-        self._socket.close()
-        self._reader.join(10)
-
-
-@pytest.fixture
-def look():
-    """Opens pages, and closes them afterwards."""
-    pages = []
-
-    def opened(service, client, name="dashboard"):
-        pages.append(Page(service, client, name))
-        return pages[-1]
-
-    yield opened
-    for page in pages:
-        page.close()
-
-
 @pytest.fixture
 def stranger(shared):
     """Somebody who is not logged in."""
@@ -180,7 +122,7 @@ def person(alone):
 
 
 @pytest.fixture
-def enrol():
+def enrol(sign):
     """Enrols a patient whose healthy side is the right one, and signs for the limits."""
 
     def enrolled(client, name="Wang", **more):
@@ -188,12 +130,6 @@ def enrol():
         return sign(client, client.post("/api/patients", json=form).raise_for_status().json())
 
     return enrolled
-
-
-def sign(client, patient):
-    """Confirm a patient's limits as they are."""
-    seen = {key: patient[key] for key in ("passive_range", "force_limits", "assist_level_most")}
-    return client.post(f"/api/patients/{patient['id']}/confirm-limits", json=seen).raise_for_status().json()
 
 
 @pytest.fixture

@@ -49,7 +49,7 @@ def logged_in_as(service, name, role):
 @pytest.fixture
 def in_charge(shared, therapist, new_patient, look):
     """The page that opened a session, with the arm engaged."""
-    page = look(shared, therapist, "first")
+    page = look(therapist, "first")
     form = {"patient_id": new_patient()["id"], "confirmed_affected_side": "left"}
     page.session = page.post("/api/sessions", **form).raise_for_status().json()
     page.path = f"/api/sessions/{page.session['id']}"
@@ -64,18 +64,18 @@ def holder(client):
     return client.get("/api/sessions/current/authority").json()
 
 
-def test_sr11_whoever_opens_a_session_is_in_charge_and_everybody_sees_it(shared, in_charge, colleague, look):
+def test_sr11_whoever_opens_a_session_is_in_charge_and_everybody_sees_it(in_charge, colleague, look):
     assert holder(colleague) == {"account": "Dr. Lin", "client": "first", "connected": True}
-    other = look(shared, colleague, "second")
+    other = look(colleague, "second")
     shown = until(lambda: other.messages and other.messages[-1]["session"])
     assert shown["authority"] == holder(colleague)
     until(lambda: other.messages[-1]["tick"]["authority"] == "Dr. Lin")
 
 
 @pytest.mark.parametrize("browser", ["colleague", "therapist"])
-def test_sr11_another_page_may_hold_and_stop_and_call_pain_and_nothing_else(shared, in_charge, browser, look, request):
+def test_sr11_another_page_may_hold_and_stop_and_call_pain_and_nothing_else(in_charge, browser, look, request):
     """Also another page of the same person."""
-    other = look(shared, request.getfixturevalue(browser), "second")
+    other = look(request.getfixturevalue(browser), "second")
     path = in_charge.path
     asked = {
         "control": [{"action": action} for action in ("start", "resume", "reset")],
@@ -93,8 +93,8 @@ def test_sr11_another_page_may_hold_and_stop_and_call_pain_and_nothing_else(shar
     assert states == ["hold", "hold", "stopped"]
 
 
-def test_sr11_a_pulled_connection_is_a_hold_though_its_socket_stays_open(shared, in_charge, colleague, look):
-    other = look(shared, colleague, "second")
+def test_sr11_a_pulled_connection_is_a_hold_though_its_socket_stays_open(in_charge, colleague, look):
+    other = look(colleague, "second")
     until(lambda: state(other) == "engaged")
     in_charge.pull()
     until(lambda: state(other) == "hold")
@@ -102,21 +102,21 @@ def test_sr11_a_pulled_connection_is_a_hold_though_its_socket_stays_open(shared,
     assert holder(colleague) == {"account": "Dr. Lin", "client": "first", "connected": False}
 
 
-def test_sr11_a_page_that_is_left_is_a_hold_and_has_its_place_back_when_it_returns(shared, therapist, in_charge, look):
-    watcher = look(shared, therapist, "second")
+def test_sr11_a_page_that_is_left_is_a_hold_and_has_its_place_back_when_it_returns(therapist, in_charge, look):
+    watcher = look(therapist, "second")
     until(lambda: state(watcher) == "engaged")
     in_charge.close()
     until(lambda: state(watcher) == "hold")
     assert in_charge.post(f"{in_charge.path}/control", action="resume").status_code == 409
-    back = look(shared, therapist, "first")
+    back = look(therapist, "first")
     until(lambda: holder(therapist)["connected"])
     time.sleep(0.3)
     assert state(watcher) == "hold", "nothing resumes by itself"
     assert back.post(f"{in_charge.path}/control", action="resume").json()["state"] == "engaged"
 
 
-def test_sr11_taking_over_wants_a_confirmation_holds_the_arm_and_is_noted(shared, in_charge, colleague, look):
-    other = look(shared, colleague, "second")
+def test_sr11_taking_over_wants_a_confirmation_holds_the_arm_and_is_noted(in_charge, colleague, look):
+    other = look(colleague, "second")
     refused = other.post(f"{in_charge.path}/authority", confirmed=False)
     assert refused.status_code == 409
     assert "Dr. Lin" in refused.json()["detail"]["what"]
@@ -132,21 +132,21 @@ def test_sr11_taking_over_wants_a_confirmation_holds_the_arm_and_is_noted(shared
     assert events[0]["text"] == "Dr. Qian took over from Dr. Lin"
 
 
-def test_sr11_a_lost_page_can_be_followed_by_another_without_a_confirmation(shared, in_charge, colleague, look):
+def test_sr11_a_lost_page_can_be_followed_by_another_without_a_confirmation(in_charge, colleague, look):
     in_charge.close()
-    other = look(shared, colleague, "second")
+    other = look(colleague, "second")
     assert other.post(f"{in_charge.path}/authority").json()["account"] == "Dr. Qian"
 
 
-def test_sr11_the_same_page_open_twice_is_one_page_the_newest(shared, therapist, in_charge, look):
-    newest = look(shared, therapist, "first")
+def test_sr11_the_same_page_open_twice_is_one_page_the_newest(therapist, in_charge, look):
+    newest = look(therapist, "first")
     until(lambda: in_charge.closed_with == 4409)
     until(lambda: newest.messages)
     assert holder(therapist)["connected"]
 
 
-def test_sr11_the_patients_screen_never_comes_into_charge(shared, in_charge, screen, look, new_patient):
-    page = look(shared, screen, "patient")
+def test_sr11_the_patients_screen_never_comes_into_charge(in_charge, screen, look, new_patient):
+    page = look(screen, "patient")
     assert page.post(f"{in_charge.path}/authority", confirmed=True).status_code == 403
     form = {"patient_id": in_charge.session["patient_id"], "confirmed_affected_side": "left"}
     assert page.post("/api/sessions", **form).status_code == 403
@@ -155,7 +155,7 @@ def test_sr11_the_patients_screen_never_comes_into_charge(shared, in_charge, scr
     assert [metric["value"] for metric in ended["metrics"] if metric["name"] == "pain_calls"] == [1]
 
 
-def test_sr11_it_is_noted_when_nobody_is_in_charge(shared, therapist, in_charge):
+def test_sr11_it_is_noted_when_nobody_is_in_charge(therapist, in_charge):
     in_charge.close()
 
     def noted():
@@ -166,7 +166,19 @@ def test_sr11_it_is_noted_when_nobody_is_in_charge(shared, therapist, in_charge)
 
 
 @pytest.mark.parametrize("name", ["a b", "x" * 65, "<script>"])
-def test_a_page_cannot_have_any_name(shared, therapist, name):
+def test_a_page_cannot_have_any_name(therapist, name):
     answer = therapist.post("/api/sessions/1/control", json={"action": "stop"}, headers={"Mirrorlimb-Client": name})
     assert answer.status_code == 422
     assert "Mirrorlimb-Client" in answer.json()["detail"]["what"]
+
+
+@pytest.mark.parametrize("route", ["sessions", "authority"])
+def test_sr11_a_page_without_a_name_comes_into_charge_of_nothing(colleague, in_charge, route):
+    form = {"patient_id": in_charge.session["patient_id"], "confirmed_affected_side": "left"}
+    asked = {"sessions": ("/api/sessions", form), "authority": (f"{in_charge.path}/authority", {"confirmed": True})}
+    path, body = asked[route]
+    answer = colleague.post(path, json=body)
+    assert answer.status_code == 422
+    assert "Mirrorlimb-Client" in answer.json()["detail"]["expected"]
+    stopped = colleague.post(f"{in_charge.path}/control", json={"action": "stop"})
+    assert stopped.json()["state"] == "stopped", "a stop is never refused for that"

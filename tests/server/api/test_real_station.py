@@ -28,7 +28,7 @@ def newcomer(demonstration):
 def page(demonstration, newcomer, look):
     """The demonstration's page, in charge of a session whose arm may be enabled."""
     patient = newcomer.post("/api/demo").raise_for_status().json()["patient"]
-    opened = look(demonstration, newcomer)
+    opened = look(newcomer)
     form = {"patient_id": patient["id"], "confirmed_affected_side": "left"}
     session = opened.post("/api/sessions", **form).raise_for_status().json()
     opened.path = f"/api/sessions/{session['id']}"
@@ -80,7 +80,7 @@ def test_a_newcomer_plays_and_the_figures_stay(page):
 
 
 def test_sr11_the_therapists_pulled_page_is_a_hold_until_another_has_taken_over(page, demonstration, newcomer, look):
-    other = look(demonstration, newcomer, "second")
+    other = look(newcomer, "second")
     other.path = page.path
     press(page, "start").raise_for_status()
     page.pull()
@@ -96,7 +96,7 @@ def test_sr11_the_therapists_pulled_page_is_a_hold_until_another_has_taken_over(
 
 def test_a_sender_alone_moves_nothing(demonstration, newcomer, look):
     newcomer.post("/api/demo").raise_for_status()
-    looking = look(demonstration, newcomer)
+    looking = look(newcomer)
     until(looking, lambda tick: tick["timing"]["datagrams"])
     seen = len(looking.messages)
     until(looking, lambda tick: len(looking.messages) > seen + 50)

@@ -35,7 +35,7 @@ def until(condition):
 @pytest.fixture
 def open_one(shared, therapist, new_patient, look):
     """Opens a session for a patient of that form, from a page that is connected; ended afterwards if it was not."""
-    page = look(shared, therapist)
+    page = look(therapist)
 
     def made(**patient):
         session = opened(therapist, new_patient(**patient)).raise_for_status().json()
@@ -59,7 +59,7 @@ def tick_when(page, condition):
 
 
 def test_a_session_runs_from_patient_to_saved_metrics(shared, therapist, new_patient, look):
-    look(shared, therapist)
+    look(therapist)
     patient = new_patient("Qian")
     session = opened(therapist, patient).json()
     assert (session["status"], session["affected_side"], session["pain_before"]) == ("open", "left", 2)
