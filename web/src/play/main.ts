@@ -1,5 +1,6 @@
 // The patient's screen: takes the stream, draws sixty times a second what it says, and decides nothing.
 import "./play.css";
+import "./pain.css";
 import { connectLive } from "../api/live";
 import type { LiveMessage } from "../api/types";
 import { t } from "../strings";
@@ -7,6 +8,7 @@ import { accessOf } from "./access";
 import { keepAwake } from "./awake";
 import { addControls } from "./controls";
 import { child } from "./dom";
+import { Pain } from "./pain";
 import { Picture } from "./picture";
 import type { Access } from "./screen";
 import { Sound } from "./sound";
@@ -21,12 +23,15 @@ function start(): void {
   const page = part("play");
   const sound = new Sound();
   addControls(part("controls"), page, sound);
+  const pain = new Pain(part("pain"));
   const picture = open(page, sound);
-  if (!picture) return;
   let access: Access = "connecting";
   connectLive(
     "patient",
-    (message: LiveMessage) => picture.take(message, seconds()),
+    (message: LiveMessage) => {
+      pain.take(message);
+      picture?.take(message, seconds());
+    },
     (link) => {
       access = link;
       void accessOf(link).then((known) => {
@@ -36,9 +41,9 @@ function start(): void {
   );
   const draw = () => {
     requestAnimationFrame(draw);
-    picture.draw(access, seconds());
+    picture?.draw(access, seconds());
   };
-  draw();
+  if (picture) draw();
   keepAwake();
 }
 

@@ -5,6 +5,7 @@ import { type Changes, changesBetween, type GameView } from "./changes";
 import { Effects } from "./effects";
 import { garden } from "./garden";
 import { Guide } from "./guide";
+import { HelpNote } from "./help-note";
 import { Hud } from "./hud";
 import { Limbs } from "./limbs";
 import { Orchard } from "./orchard";
@@ -26,6 +27,7 @@ export class Picture {
   private readonly effects = new Effects(() => this.stillness.matches);
   private readonly hud: Hud;
   private readonly overlay: Overlay;
+  private readonly helpNote: HelpNote;
   private readonly pace: Pace;
   private newest: LiveMessage | null = null;
   private arrived_s = 0;
@@ -50,6 +52,7 @@ export class Picture {
     });
     this.hud = new Hud(hud);
     this.overlay = new Overlay(overlay);
+    this.helpNote = new HelpNote(page);
     const parts = [this.guide.group, this.orchard.group, this.limbs.group, this.effects.group];
     this.stage.scene.add(...parts);
   }
@@ -59,6 +62,7 @@ export class Picture {
     this.newest = message;
     this.arrived_s = now_s;
     this.limbs.take(message.tick, now_s);
+    this.helpNote.take(message, now_s);
     const changes = changesBetween(this.game, message.game);
     this.game = message.game;
     this.react(changes);
@@ -73,6 +77,7 @@ export class Picture {
     const hand = this.limbs.animate(now_s);
     this.animate(face, dt_s, hand);
     this.hud.show(this.game);
+    this.helpNote.show(face, now_s);
     this.overlay.show(face, this.game, reasonFor(face, this.newest?.tick), now_s);
     this.stage.render();
     if (this.pace.frame(now_s)) this.stage.coarsen();

@@ -9,7 +9,13 @@ describe("reasonFor", () => {
     ["No sensor sees the patient now.", "play.reason.unseen"],
     ["The healthy arm is not seen well enough to follow. A person resumes.", "play.reason.unseen"],
     ["The healthy arm's position is too uncertain.", "play.reason.unseen"],
-    ["The service is silent; nobody could be heard.", null],
+    ["wang pressed pain", "play.reason.pain"],
+    ["wang said that it hurts", "play.reason.pain"],
+    ["The elbow resists with 7.1 N m; the arm is held softly.", "play.reason.resisted"],
+    ["Nobody who is in charge is connected.", "play.reason.alone"],
+    ["The service is silent; nobody could be heard.", "play.reason.alone"],
+    ["wang took over from lin.", "play.reason.taken"],
+    ["The control loop stood still for 0.20 s.", null],
   ])("says of a hold because of %j %s", (reason, key) => {
     expect(reasonFor("paused", held(reason))).toBe(key);
   });

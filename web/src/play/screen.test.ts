@@ -3,9 +3,9 @@ import { STALE_S } from "../api/live";
 import type { LiveMessage } from "../api/types";
 import { affectedSide, clockText, faceFor } from "./screen";
 
-function message(state: string, phase: string | null, session = "s1"): LiveMessage {
+function message(state: string, phase: string | null, session = "s1", compliant = false): LiveMessage {
   const game = phase === null ? null : { phase };
-  return { index: 1, tick: { state, session }, game } as unknown as LiveMessage;
+  return { index: 1, tick: { state, session, exo: { compliant } }, game } as unknown as LiveMessage;
 }
 
 describe("faceFor", () => {
@@ -22,6 +22,10 @@ describe("faceFor", () => {
     ["stopped", "over", "over"],
   ])("shows a %s station in phase %s as %s", (state, phase, face) => {
     expect(faceFor("open", message(state, phase), 0)).toBe(face);
+  });
+
+  it("tells a hold that gives way from a pause", () => {
+    expect(faceFor("open", message("hold", "playing", "s1", true), 0)).toBe("eased");
   });
 
   it("welcomes until a session is open", () => {

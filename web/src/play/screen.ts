@@ -9,6 +9,7 @@ export type Face =
   | "welcome"
   | "ready"
   | "paused"
+  | "eased"
   | "stopped"
   | "fault"
   | "waiting"
@@ -27,11 +28,12 @@ export function faceFor(link: Access, message: LiveMessage | null, age_s: number
   if (message.game?.phase === "over") return "over";
   const { tick } = message;
   if (!tick?.session) return "welcome";
-  return tick.state === "engaged" ? faceOfGame(message.game?.phase) : faceOfState(tick.state);
+  return tick.state === "engaged" ? faceOfGame(message.game?.phase) : faceOfState(tick);
 }
 
-function faceOfState(state: string): Face {
-  if (state === "hold") return "paused";
+/** A hold that gives way (pain, resistance) is another one than a pause. */
+function faceOfState({ state, exo }: LiveMessage["tick"]): Face {
+  if (state === "hold") return exo.compliant ? "eased" : "paused";
   if (state === "stopped" || state === "fault") return state;
   return "ready";
 }

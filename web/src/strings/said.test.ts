@@ -26,3 +26,11 @@ test("angles are said in degrees", () => {
 test("an unknown sentence is not lost", () => {
   expect(inChinese("The moon is full")).toBe("The moon is full");
 });
+
+test("who is in charge, resistance and pain are said in Chinese", () => {
+  expect(inChinese("The elbow resists with 7.1 N m; the arm is held softly")).toContain("7.1 Nm");
+  expect(inChinese("Nobody who is in charge is connected")).toBe("控制者的页面已断开");
+  expect(inChinese("another page of yours is in charge of the arm")).toBe("您正在另一页面控制");
+  expect(inChinese("wang is in charge of the arm")).toBe("目前由 wang 控制");
+  expect(inChinese("Enable is not possible while the exoskeleton is 'hold'")).not.toContain("hold");
+});

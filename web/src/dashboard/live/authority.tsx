@@ -18,6 +18,8 @@ interface Props {
 export function Authority({ feed, charge, session, account }: Props) {
   const holder = useFromFeed(feed, 4, ({ newest }) => authorityOf(newest)?.account ?? "");
   const [asking, setAsking] = useState(false);
+  // Nothing is left to confirm once the other page is gone.
+  const isAsked = asking && charge === "other";
   const doing = useDoing();
   const take = (confirmed: boolean) =>
     doing.run(async () => {
@@ -27,8 +29,8 @@ export function Authority({ feed, charge, session, account }: Props) {
   return (
     <div class="authority" data-testid="authority" data-charge={charge}>
       <Sign charge={charge} />
-      <span>{wordsFor(charge, holder, account)}</span>
-      {charge !== "mine" && !asking && (
+      {!isAsked && <span>{wordsFor(charge, holder, account)}</span>}
+      {charge !== "mine" && !isAsked && (
         <button
           type="button"
           disabled={doing.busy}
@@ -38,7 +40,7 @@ export function Authority({ feed, charge, session, account }: Props) {
           {t("authority.take")}
         </button>
       )}
-      {charge !== "mine" && asking && (
+      {isAsked && (
         <Question holder={holder} busy={doing.busy} onTake={() => take(true)} onCancel={() => setAsking(false)} />
       )}
       <ProblemBox problem={doing.problem} onClose={doing.forget} />

@@ -9,7 +9,7 @@ export function JointFields({ draft, change }: PartProps) {
   const affected = otherSide(draft.healthySide ?? "left");
   return (
     <section class="card">
-      <h2>{t("range.title")}</h2>
+      <h2>{t("limits.title")}</h2>
       <p class="soft small">{t("range.why")}</p>
       <p class="soft small">{t("force.why")}</p>
       {JOINTS.map((joint) => (

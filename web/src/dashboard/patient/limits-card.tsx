@@ -20,7 +20,7 @@ export function LimitsCard({ patient, onConfirmed }: Props) {
           <thead>
             <tr>
               <th>{t("exo.joint")}</th>
-              <th class="number">{t("range.title.short")}</th>
+              <th class="number">{t("range.title")}</th>
               <th class="number">{t("force.torque")}</th>
               <th class="number">{t("force.resistance")}</th>
             </tr>

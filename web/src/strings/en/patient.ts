@@ -28,7 +28,6 @@ export const patient = {
   "joint.elevation.short": "Elevation",
   "joint.rotation.short": "Rotation",
   "joint.elbow.short": "Elbow",
-  "range.title": "Passive range of the affected arm",
   "range.why":
     "How far you can move the arm by hand without resistance or pain. The exoskeleton never leaves this range.",
   "range.from": "From (°)",
@@ -43,7 +42,7 @@ export const patient = {
   "range.elevation.picture": "Picture of the range of elevation",
   "range.rotation.picture": "Picture of the range of rotation",
   "range.elbow.picture": "Picture of the range of the elbow",
-  "range.title.short": "Range",
+  "range.title": "Range",
   "force.why":
     "Torque: the most that the drive may use beyond carrying the arm. Resistance: where the arm resists with more (a cramp, pain), the exoskeleton gives way at once.",
   "force.torque": "Torque (Nm)",
