@@ -22,7 +22,7 @@ LEARN_S: Final = 6.0
 SETTLED_S: Final = 4.0
 """Then it is started, and blends in."""
 BOTH_S: Final = 1.5
-ROUNDS: Final = 3
+ROUNDS: Final = 2
 """A recording with truth lasts some 13 s: it is played over and over, the first time for the station to learn."""
 SEAM_S: Final = 4.0
 """Where it begins anew the patient is elsewhere at once; so much is not judged."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from time import process_time
 from typing import Final
 
 import numpy as np
@@ -12,6 +13,7 @@ from fusion.messages import Flags, Floats
 from server.experiments.cranked.following import Course, hand_m
 from server.experiments.cranked.station import DT_S
 from server.messages import DriveState
+from server.station.exo.driver import ZERO, Drive, DriveCommand, DriveMode
 
 Span = tuple[float, float]
 ENGAGED: Final = DriveState.ENGAGED
@@ -97,6 +99,18 @@ def fastest_rad_s(angle_rad: Floats) -> float:
     speed = np.abs(np.angle(np.exp(1j * np.diff(angle_rad, axis=0)))) / DT_S
     speed[:, 0] *= np.sin(np.clip(angle_rad[1:, 1], 0.0, np.pi / 2))
     return float(np.nanpercentile(speed, 95, axis=0).max())
+
+
+def drive_work_s(drive: Drive, ticks: int) -> float:
+    """What a tick of a drive costs this machine, in seconds of processing: the median of so many."""
+    took = []
+    at = drive.read(0.0).angle_rad
+    for tick in range(ticks):
+        now_s, began_s = tick * DT_S, process_time()
+        drive.read(now_s)
+        drive.command(DriveCommand(DriveMode.HOLD, at, ZERO, ""), now_s)
+        took.append(process_time() - began_s)
+    return float(np.median(took))
 
 
 def late(follower_rad: Floats, leader_rad: Floats, rows: Flags, longest_s: float = LONGEST_DELAY_S) -> Late:

@@ -89,7 +89,7 @@ class CrankedStation:
     def __init__(self, config: StationConfig, drive: Drive, demonstration: Demonstration | None = None) -> None:
         self.source, self.mailbox = ScriptedSource(), ScriptedMailbox()
         self.now_s = 100.0
-        self.beating = True
+        self.beating, self.authority = True, IN_CHARGE
         self._numbers = count(1)
         perception = Perception(PipelineSettings(Side.LEFT, config.method, config.reference))
         channels = cast(StationChannels, self.mailbox)  # has the methods that the loop calls
@@ -99,7 +99,7 @@ class CrankedStation:
         """The next tick."""
         self.now_s += DT_S
         if self.beating:
-            self.mailbox.wanted.append(Heartbeat(number=0, authority=IN_CHARGE))
+            self.mailbox.wanted.append(Heartbeat(number=0, authority=self.authority))
         return self.loop.step(self.now_s)
 
     def wish(self, make: Callable[..., Wish], **fields: object) -> int:

@@ -18,7 +18,7 @@ def outcome() -> Outcome:
 
 def test_the_arm_follows_while_either_sensor_is_covered_and_is_held_while_both_are(outcome: Outcome) -> None:
     met = {row.what: row.met for row in outcome.beside if row.met is not None}
-    assert len(met) == 3
+    assert len(met) == 4
     assert all(met.values()), outcome.beside
 
 

@@ -22,7 +22,7 @@ KNOWN_FRICTION: Final = 0.8
 STICTION_RAD_S: Final = 0.02
 """Friction is taken to be fully developed from a few times this velocity."""
 FILTER_S: Final = 0.02
-"""Time constant with which torque and velocity are smoothed before the arm's share is taken from them."""
+"""Time constant with which angle, velocity and torque are smoothed before the arm's share is taken from them."""
 
 ANGLE, VELOCITY, ACCELERATION, PLACE = range(4)
 """Rows of the set-point: as commanded and carried on; PLACE follows ANGLE no faster than the joint may go."""
@@ -32,8 +32,8 @@ LOW, HIGH, FASTEST, STRONGEST, COULOMB, VISCOUS = range(6)
 """Rows of what the drive knows of its joints."""
 WEIGHT, INERTIA = range(2)
 """Rows of the load as believed."""
-TORQUE = 0
-"""Row of what is smoothed, beside VELOCITY."""
+TORQUE = 2
+"""Row of what is smoothed, beside ANGLE and VELOCITY."""
 
 
 @kernel
@@ -76,7 +76,7 @@ def torques(
         gains: (4, n).
         joints: (6, n).
         load: (2, n) as believed.
-        smooth: (2, n) the smoothed torque and velocity, changed in place.
+        smooth: (3, n) the smoothed angle, velocity and torque, changed in place.
         dt_s: the step.
     """
     torque, kept = np.empty(measured.shape[1]), dt_s / FILTER_S
@@ -91,8 +91,9 @@ def torques(
         bound, most = gains[BOUND, i], joints[STRONGEST, i]
         carried = load[WEIGHT, i] + friction_nm(moving, joints[COULOMB, i], joints[VISCOUS, i])
         torque[i] = min(max(min(max(effort, -bound), bound) + carried, -most), most)
-        smooth[TORQUE, i] += kept * (torque[i] - smooth[TORQUE, i])
+        smooth[ANGLE, i] += kept * (measured[ANGLE, i] - smooth[ANGLE, i])
         smooth[VELOCITY, i] += kept * (velocity - smooth[VELOCITY, i])
+        smooth[TORQUE, i] += kept * (torque[i] - smooth[TORQUE, i])
     return torque
 
 

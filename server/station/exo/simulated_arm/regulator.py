@@ -63,7 +63,7 @@ class Regulator:
         count = len(joints)
         self._still = np.zeros(count)
         self._wanted, self._gains = np.zeros((4, count)), np.zeros((4, count))
-        self._measured, self._load, self._smooth = np.zeros((2, count)), np.zeros((2, count)), np.zeros((2, count))
+        self._measured, self._load, self._smooth = np.zeros((2, count)), np.zeros((2, count)), np.zeros((3, count))
         self._last = self._still
         self._commanded_s = float("-inf")
         self._steps = 0
@@ -72,6 +72,7 @@ class Regulator:
     def begin(self, joints_rad: Floats) -> None:
         """Hold (n,) from rest; nothing of before counts."""
         self._smooth[:] = 0.0
+        self._smooth[ANGLE] = joints_rad
         self._smooth[TORQUE] = self._belief.torque_nm(joints_rad, self._still, self._still)
         self._commanded_s = float("-inf")
         self._steps = 0
@@ -108,10 +109,10 @@ class Regulator:
 
         Expected torque of the smoothed movement, and friction, less the smoothed torque that was given.
         """
-        torque, velocity = self._smooth
+        angle, velocity, torque = self._smooth
         acceleration = (scene.rotor_rad_s - velocity) / FILTER_S
         rubbing = [friction_nm(v, gear.coulomb_nm, gear.viscous_nm_s) for v, gear in zip(velocity, GEARS, strict=True)]
-        unexpected: Floats = self._belief.torque_nm(scene.rotor_rad, velocity, acceleration) + rubbing - torque
+        unexpected: Floats = self._belief.torque_nm(angle, velocity, acceleration) + rubbing - torque
         return unexpected
 
     def _warm_up(self) -> None:
