@@ -166,7 +166,9 @@ class RosbridgeDrive:
         if heard is None:
             return
         if heard.op == "status" and heard.level == "error":
-            self._said = f"The robot's side refused something: {bytes(heard.msg).decode()[:SHOWN_LETTERS]}"
+            self._said = (
+                f"The robot's side refused something: {bytes(heard.msg).decode(errors='replace')[:SHOWN_LETTERS]}"
+            )
         state = wire.joint_state(heard.msg) if heard.topic == self._settings.state_topic else None
         if state is not None:
             self._states = self._states.heard(state, time.monotonic())

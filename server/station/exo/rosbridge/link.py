@@ -6,6 +6,7 @@ A link that breaks says so and is tried again; what was to be sent before it bro
 from __future__ import annotations
 
 import asyncio
+import logging
 import os
 import socket
 import threading
@@ -21,6 +22,8 @@ from websockets.exceptions import WebSocketException
 from fusion.errors import MachineError
 from server.station import pacemaker
 from server.station.exo.rosbridge.wire import LONGEST_MESSAGE_BYTES
+
+log = logging.getLogger(__name__)
 
 OPEN_WITHIN_S = 3.0
 AGAIN_AFTER_S = 0.5
@@ -92,8 +95,13 @@ class Link:
 
     def _run(self) -> None:
         pacemaker.ask_for_priority()  # a thread of ordinary priority would send late under load
-        with suppress(asyncio.CancelledError):
+        try:
             asyncio.run(self._keep())
+        except asyncio.CancelledError:
+            return
+        except Exception:
+            self.trouble = "The link to the robot has failed by a fault of its own; see the log."
+            log.exception("the link's thread has ended")
 
     async def _keep(self) -> None:
         self._loop, self._task = asyncio.get_running_loop(), asyncio.current_task()

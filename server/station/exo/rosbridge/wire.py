@@ -10,6 +10,7 @@ import msgspec
 TRAJECTORY_TYPE = "trajectory_msgs/msg/JointTrajectory"
 STATE_TYPE = "sensor_msgs/msg/JointState"
 LONGEST_MESSAGE_BYTES = 65_536
+_UNREADABLE = (msgspec.MsgspecError, UnicodeDecodeError, RecursionError)
 
 
 class Time(msgspec.Struct, frozen=True):
@@ -99,7 +100,7 @@ def heard(message: str | bytes) -> Heard | None:
     """What was said; None where it is nothing of rosbridge's."""
     try:
         return msgspec.json.decode(message, type=Heard)
-    except msgspec.MsgspecError:
+    except _UNREADABLE:
         return None
 
 
@@ -107,7 +108,7 @@ def joint_state(raw: msgspec.Raw) -> JointState | None:
     """The joint state in a message; None where it is none."""
     try:
         return msgspec.json.decode(raw, type=JointState)
-    except msgspec.MsgspecError:
+    except _UNREADABLE:
         return None
 
 
