@@ -88,7 +88,7 @@ def sequence(source: Random, tally: Tally) -> None:
         _recover(source, rig, reaching, tally)
         for _ in range(round(WARM_UP_S / TICK_S * source.uniform(0.5, 1.5))):
             _good(rig, reaching, tally)
-        _faulty(source, rig, reaching, source.choice((*FAULTS, LEANING)), tally)
+        one_fault(source, rig, reaching, source.choice((*FAULTS, LEANING)), tally)
 
 
 def _recover(source: Random, rig: GateRig, reaching: Reaching, tally: Tally) -> None:
@@ -106,11 +106,11 @@ def _good(rig: GateRig, reaching: Reaching, tally: Tally) -> None:
     _judge(rig, tally)
 
 
-def _faulty(source: Random, rig: GateRig, reaching: Reaching, fault: Fault, tally: Tally) -> None:
+def one_fault(source: Random, rig: GateRig, reaching: Reaching, fault: Fault, tally: Tally) -> None:
     """One fault for its time, and somewhat more."""
     began_s, first = rig.t_s, rig.inputs.reading
     watch = Watch(fault, rig.now is DriveState.ENGAGED)
-    lasts_s = min(fault.within_s, 2.0) + source.uniform(0.1, 1.0)
+    lasts_s = min(fault.within_s, 2.0) + source.uniform(0.5, 1.5)
     while rig.t_s - began_s < lasts_s:
         moment = Moment(rig, rig.t_s - began_s + TICK_S, source, first, reaching.at(rig.t_s))
         fault.spoil(moment)

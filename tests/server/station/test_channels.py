@@ -12,7 +12,7 @@ import pytest
 from station_samples import live_tick
 
 from server.channels import DemonstrationChannels, ServiceChannels, StationChannels, encoded, private_folder
-from server.messages import DemoGoal, Enable, Hold, Stop, Warned, Wish
+from server.messages import DemoGoal, Enable, Hold, Pain, Stop, Warned, Wish
 
 
 @pytest.fixture
@@ -39,20 +39,21 @@ def test_private_folder_stays_short_enough_for_unix_sockets(tmp_path: Path, monk
     made.rmdir()
 
 
-async def test_wishes_arrive_in_order_and_stop_has_its_own_channel(folder: Path) -> None:
+async def test_sr7_wishes_arrive_in_order_and_stop_and_pain_have_their_own_channel(folder: Path) -> None:
     station, service = StationChannels(folder), ServiceChannels(folder)
     assert await service.connected(5)
     for number in range(3):
         assert service.send(Hold(number=number, reason="pause"))
-    assert service.send(Stop(number=9, reason="pain"))
+    assert service.send(Stop(number=9, reason="enough"))
+    assert service.send(Pain(number=10, reason="my shoulder"))
     wishes: list[Wish] = []
-    stops: list[Stop] = []
-    while len(wishes) < 3 or not stops:
+    stops: list[Stop | Pain] = []
+    while len(wishes) < 3 or len(stops) < 2:
         await asyncio.sleep(0.005)
         wishes += station.wishes()
         stops += station.stops()
     assert [wish.number for wish in wishes] == [0, 1, 2]
-    assert [stop.number for stop in stops] == [9]
+    assert [stop.number for stop in stops] == [9, 10]
     service.close()
     station.close()
 

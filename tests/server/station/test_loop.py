@@ -19,6 +19,7 @@ from fusion.virtual_patient.anatomy import ArmPose
 from fusion.virtual_patient.patient import PoseGoal, VirtualPatient
 from fusion.virtual_patient.trial import sensors_for
 from server.messages import (
+    Assistance,
     CloseSession,
     DriveState,
     Enable,
@@ -26,9 +27,11 @@ from server.messages import (
     Hold,
     LiveTick,
     OpenSession,
+    Pain,
     Reset,
     Resume,
     SessionClosed,
+    SetAssistance,
     StateChanged,
     Stop,
     Warned,
@@ -145,6 +148,56 @@ def test_sr9_a_silent_service_holds_within_its_time() -> None:
     assert rig.last.state is DriveState.HOLD
     rig.beating = True
     assert rig.run(1.0).state is DriveState.HOLD
+
+
+def test_sr11_an_arm_whose_person_in_charge_is_gone_holds_until_a_person_resumes() -> None:
+    rig = engaged()
+    assert rig.last.authority == "therapist"
+    rig.authority = ""
+    assert rig.tick().state is DriveState.HOLD
+    assert (rig.last.authority, rig.last.reason) == ("", "Nobody who is in charge is connected.")
+    rig.run(1.0)
+    assert "in charge" in rig.ask(Resume).reason
+    rig.authority = "another"
+    assert rig.run(1.0).state is DriveState.HOLD
+    assert rig.ask(Resume).accepted, rig.last.blockers
+
+
+def test_sr11_nobody_in_charge_enables_nothing() -> None:
+    rig = HandCranked()
+    rig.authority = ""
+    rig.open()
+    rig.run(4.0)
+    assert rig.last.blockers == ("Nobody who is in charge is connected.",)
+    assert not rig.ask(Enable).accepted
+
+
+def test_sr18_pain_holds_softly_in_its_own_tick_and_outdates_what_was_wished_before_it() -> None:
+    rig = engaged()
+    assert rig.ask(Pain, reason="my shoulder").state is DriveState.HOLD
+    assert (rig.last.reason, rig.last.exo.compliant) == ("my shoulder", True)
+    assert max(rig.last.exo.share) < 1.0
+    rig.run(1.0)
+    rig.mailbox.wanted += [Resume(number=100), Pain(number=101, reason="")]
+    assert rig.tick().state is DriveState.HOLD
+    rig.mailbox.wanted.append(Resume(number=99))
+    rig.tick()
+    assert "pain" in rig.told(WishAnswer)[-1].reason
+    rig.run(1.0)
+    rig.mailbox.wanted.append(Resume(number=102))
+    assert rig.tick().state is DriveState.ENGAGED
+
+
+def test_the_therapist_chooses_how_much_the_drive_helps_and_the_tick_tells() -> None:
+    rig = engaged()
+    assert (rig.last.exo.assistance, rig.last.exo.level, rig.last.exo.share) == (Assistance.PASSIVE, 1.0, (1.0,) * 4)
+    assert rig.ask(SetAssistance, mode=Assistance.ASSISTED, level=0.5).accepted
+    rig.run(1.5)
+    assert (rig.last.exo.assistance, rig.last.exo.level) == (Assistance.ASSISTED, 0.5)
+    assert max(rig.last.exo.share) <= 0.5
+    assert len(rig.last.exo.interaction_nm) == 4
+    assert not rig.last.exo.compliant
+    assert not rig.ask(SetAssistance, mode=Assistance.ASSISTED, level=1.5).accepted
 
 
 def test_sr5_stop_is_answered_in_its_own_tick_and_latched_until_reset() -> None:

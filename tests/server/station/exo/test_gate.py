@@ -9,14 +9,17 @@ import pytest
 from fusion.skeleton import Side
 from server.config import GateConfig
 from server.messages import (
+    Assistance,
     CloseSession,
     DriveState,
     Enable,
     FollowBody,
     Hold,
     OpenSession,
+    Pain,
     Reset,
     Resume,
+    SetAssistance,
     Stop,
     Wish,
 )
@@ -42,6 +45,8 @@ WISHES: tuple[Wish, ...] = (
     Stop(number=6, reason="pain"),
     Reset(number=7),
     FollowBody(number=8, sensor="s", body="b"),
+    Pain(number=9, reason="my shoulder"),
+    SetAssistance(number=10, mode=Assistance.FREE, level=0.5),
 )
 PAIRS = list(itertools.product(DriveState, WISHES))
 OPEN = {state: state is not DriveState.OFF for state in DriveState}
@@ -85,7 +90,15 @@ def test_sr5_a_session_that_closes_while_stopped_leaves_the_stop_latched() -> No
 
 @pytest.mark.parametrize("wish", [Enable(number=1), Resume(number=1)])
 @pytest.mark.parametrize(
-    "facts", [Facts(blockers=("No.",)), Facts(lost="No."), Facts(silence="No."), Facts(fault="No.")]
+    "facts",
+    [
+        Facts(blockers=("No.",)),
+        Facts(lost="No."),
+        Facts(far=("No.",)),
+        Facts(silence="No."),
+        Facts(fault="No."),
+        Facts(give_way="No."),
+    ],
 )
 def test_sr10_neither_enable_nor_resume_is_granted_while_anything_is_missing(wish: Wish, facts: Facts) -> None:
     state = DriveState.READY if isinstance(wish, Enable) else DriveState.HOLD
@@ -149,3 +162,68 @@ def test_sr9_a_silent_service_holds_until_a_person_resumes() -> None:
 def test_sr9_silence_during_a_loss_takes_the_right_to_resume_by_itself() -> None:
     held = gate.watch(_lost_at(1.0), Facts(silence="The service is silent."), CONFIG, 1.1)
     assert gate.watch(held, Facts(near=True), CONFIG, 1.2).state is DriveState.HOLD
+
+
+def _soft_at(t_s: float, state: DriveState = DriveState.ENGAGED) -> GateState:
+    return gate.wish(_at(state), Pain(number=1, reason="my shoulder"), Facts(), t_s)[0]
+
+
+@pytest.mark.parametrize("state", [DriveState.ENGAGED, DriveState.HOLD])
+def test_sr18_pain_holds_softly_and_only_a_person_resumes(state: DriveState) -> None:
+    held = _soft_at(1.0, state)
+    assert (held.state, held.reason, held.compliant) == (DriveState.HOLD, "my shoulder", True)
+    for t in range(100):
+        assert gate.watch(held, Facts(near=True), CONFIG, 1.0 + t / 10) == held
+    resumed, refusal = gate.wish(held, Resume(number=2), Facts(near=True), 2.0)
+    assert (resumed.state, resumed.compliant, refusal) == (DriveState.ENGAGED, False, "")
+
+
+@pytest.mark.parametrize("state", [DriveState.OFF, DriveState.READY, DriveState.STOPPED, DriveState.FAULT])
+def test_sr18_pain_where_nothing_moves_is_refused_in_words(state: DriveState) -> None:
+    assert "A hold for pain is not possible" in gate.wish(_at(state), Pain(number=1, reason=""), Facts(), 1.0)[1]
+
+
+@pytest.mark.parametrize("state", [DriveState.ENGAGED, DriveState.HOLD])
+def test_sr18_resistance_holds_softly_and_only_a_person_resumes(state: DriveState) -> None:
+    held = gate.watch(_at(state), Facts(give_way="The elbow resists."), CONFIG, 1.0)
+    assert (held.state, held.reason, held.compliant) == (DriveState.HOLD, "The elbow resists.", True)
+    assert gate.watch(held, Facts(near=True), CONFIG, 1.5) == held
+
+
+def test_sr18_resistance_during_a_short_loss_takes_the_right_to_resume_by_itself() -> None:
+    held = gate.watch(_lost_at(1.0), Facts(lost="No sensor.", give_way="The elbow resists."), CONFIG, 1.1)
+    assert held.compliant
+    assert gate.watch(held, Facts(near=True), CONFIG, 1.2).state is DriveState.HOLD
+
+
+@pytest.mark.parametrize("state", [s for s in DriveState if s not in (DriveState.ENGAGED, DriveState.HOLD)])
+def test_sr18_an_arm_that_is_not_moved_may_be_pushed(state: DriveState) -> None:
+    assert gate.watch(_at(state), Facts(give_way="The elbow resists."), CONFIG, 1.0) == _at(state)
+
+
+def test_sr18_a_soft_hold_stays_soft_through_stop_and_fault_and_ends_with_the_reset() -> None:
+    stopped, _ = gate.wish(_soft_at(1.0), Stop(number=2, reason=""), Facts(), 2.0)
+    faulty = gate.watch(_soft_at(1.0), Facts(fault="The motor is hot."), CONFIG, 2.0)
+    for latched, state in ((stopped, DriveState.STOPPED), (faulty, DriveState.FAULT)):
+        assert (latched.state, latched.compliant) == (state, True)
+        assert not gate.wish(latched, Reset(number=3), Facts(), 3.0)[0].compliant
+
+
+def test_sr11_nobody_in_charge_holds_until_a_person_resumes() -> None:
+    held = gate.watch(_at(DriveState.ENGAGED), Facts(silence="Nobody is in charge."), CONFIG, 1.0)
+    assert (held.state, held.reason, held.compliant) == (DriveState.HOLD, "Nobody is in charge.", False)
+    assert gate.watch(held, Facts(near=True), CONFIG, 1.1).state is DriveState.HOLD
+
+
+def test_an_arm_that_is_left_free_minds_neither_a_lost_nor_a_far_target() -> None:
+    facts = Facts(lost="No sensor.", far=("Too far.",), leads=False)
+    assert gate.watch(_at(DriveState.ENGAGED), facts, CONFIG, 1.0).state is DriveState.ENGAGED
+    assert gate.wish(_at(DriveState.READY), Enable(number=1), facts, 1.0)[0].state is DriveState.ENGAGED
+
+
+def test_sr5_choosing_another_assistance_keeps_the_state_but_no_loss_ends_by_itself_in_it() -> None:
+    chosen = SetAssistance(number=1, mode=Assistance.FREE, level=1.0)
+    for state in (DriveState.READY, DriveState.ENGAGED, DriveState.HOLD):
+        assert gate.wish(_at(state), chosen, Facts(), 1.0)[0] == _at(state)
+    after, _ = gate.wish(_lost_at(1.0), chosen, Facts(), 1.2)
+    assert gate.watch(after, Facts(near=True), CONFIG, 1.3).state is DriveState.HOLD

@@ -1,0 +1,68 @@
+"""What is measured is judged: broken, old, astray (SR-2)."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import inf, nan
+
+import pytest
+from quick_gate import HERE, RIGID, at, engaged, run
+
+from server.experiments.gate.rig import GOOD
+from server.messages import Assistance, DriveState
+from server.station.exo.driver import ZERO, DriveReading
+from server.station.exo.measured import ASTRAY_RAD, sound
+
+
+@pytest.mark.parametrize("t_s", [9.8, 10.2, nan, -inf])
+def test_sr2_a_measurement_that_is_not_of_now_is_a_fault_at_the_expected_angles(t_s: float) -> None:
+    got = sound(DriveReading(t_s, (9.0,) * 4, (9.0,) * 4, ZERO), HERE, 10.0)
+    assert "stopped measuring" in got.fault
+    assert (got.angle_rad, got.velocity_rad_s) == (HERE, ZERO)
+
+
+def test_sr2_a_drives_own_fault_is_told_before_ours() -> None:
+    assert sound(DriveReading(0.0, (), ZERO, ZERO, fault="The motor is hot."), HERE, 10.0).fault == "The motor is hot."
+
+
+def test_sr2_a_drive_that_stops_measuring_is_a_fault_within_a_tenth_of_a_second() -> None:
+    rig = engaged()
+    last = rig.arm.read(rig.t_s)
+    began_s = rig.t_s
+    while rig.now is DriveState.ENGAGED:
+        run(rig, 0.01, at(0, 0, 0, 0.3), replace(GOOD, spoilt=lambda reading: last))
+    assert rig.now is DriveState.FAULT
+    assert rig.t_s - began_s <= 0.115
+
+
+def test_sr2_a_drive_that_lies_about_where_it_is_faults_soon_after_its_command_has_gone_elsewhere() -> None:
+    rig = engaged()
+    lie = rig.arm.read(rig.t_s)
+    run(rig, 2.0, at(0, 0, 0, 1.2), replace(GOOD, spoilt=lambda reading: replace(lie, t_s=reading.t_s)))
+    assert rig.now is DriveState.FAULT
+    assert rig.state.gate.reason == "The elbow does not follow its command."
+    assert abs(rig.arm.angle_rad[3] - HERE[3]) < 0.8
+
+
+def test_sr2_a_drive_that_does_not_obey_faults() -> None:
+    rig = engaged(device=RIGID)
+    run(rig, 2.0, at(0, 0.6, 0, 0), replace(GOOD, obeyed=False))
+    assert rig.state.gate.reason == "The elevation does not follow its command."
+
+
+def test_an_arm_that_the_person_keeps_from_its_set_point_is_not_astray_while_it_is_only_assisted() -> None:
+    rig = engaged(Assistance.ASSISTED, 0.3)
+    rig.arm.push_nm = (0.0, 0.0, 0.0, -2.0)
+    run(rig, 2.0, at(0, 0, 0, 0.4))
+    assert abs(rig.arm.angle_rad[3] - rig.command.angle_rad[3]) > ASTRAY_RAD
+    assert rig.now is DriveState.ENGAGED
+
+
+@pytest.mark.parametrize(("over_rad", "state"), [(0.04, DriveState.ENGAGED), (0.06, DriveState.FAULT)])
+def test_sr1_a_free_arm_may_lean_on_the_end_of_its_range_up_to_the_tolerance(
+    over_rad: float, state: DriveState
+) -> None:
+    rig = engaged(Assistance.FREE)
+    end = rig.limits[3].max_rad
+    run(rig, 0.01, scene=replace(GOOD, spoilt=lambda r: replace(r, angle_rad=(*r.angle_rad[:3], end + over_rad))))
+    assert rig.now is state
