@@ -17,9 +17,11 @@ from fastapi import Request, Response
 from db.account import Account, LoginSession, Role
 from db.columns import now_utc
 from db.database import Database
+from db.errors import DatabaseError
 from db.queries import accounts
 from fusion.errors import RefusedError
 from server.api.errors import ApiError
+from server.api.recognised import Recognised
 from server.api.throttle import Throttle
 
 COOKIE = "mirrorlimb_login"
@@ -51,6 +53,7 @@ class Auth:
         self._nobodys_hash = self._hasher.hash(secrets.token_urlsafe())
         self._per_name, self._per_client = Throttle(free=5), Throttle(free=30)
         self._lock = threading.Lock()
+        self._recognised = Recognised()
 
     def is_first_start(self) -> bool:
         """There is no account yet."""
@@ -99,16 +102,38 @@ class Auth:
     def log_out(self, token: str | None) -> None:
         """Make the token worthless."""
         if token:
+            self._recognised.note(_hash_of(token), None)
             with self._database.session() as session:
                 accounts.remove_login(session, _hash_of(token))
 
     def account_or_none(self, token: str | None, is_use: bool = True) -> Account | None:
-        """Whose token this is, while its log-in lasts. `is_use` false only looks, and does not prolong it."""
+        """Whose token this is, while its log-in lasts. `is_use` false only looks, and does not prolong it.
+
+        While the database does not answer, its last answer holds.
+
+        Raises:
+            DatabaseError: it does not answer, and has never said whose this is.
+        """
         if not token:
             return None
+        token_hash = _hash_of(token)
+        try:
+            account = self._looked_up(token_hash, is_use)
+        except DatabaseError:
+            account = self._recognised.ever(token_hash)
+            if account is None:
+                raise
+        self._recognised.note(token_hash, account)
+        return account
+
+    def recognised(self, token: str | None) -> Account | None:
+        """Whose token this was a moment ago; asks no database and never waits."""
+        return self._recognised.lately(_hash_of(token)) if token else None
+
+    def _looked_up(self, token_hash: str, is_use: bool) -> Account | None:
         now, settings = now_utc(), self._settings
         with self._database.session() as session:
-            found = accounts.find_login(session, _hash_of(token))
+            found = accounts.find_login(session, token_hash)
             if found is None:
                 return None
             login, account = found

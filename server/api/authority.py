@@ -42,8 +42,8 @@ class Client:
 class Connection:
     """A page's open stream."""
 
-    def __init__(self, client: Client, clock: Callable[[], float]) -> None:
-        self.client, self._clock = client, clock
+    def __init__(self, clock: Callable[[], float]) -> None:
+        self._clock = clock
         self.replaced = asyncio.Event()
         """Set when the same page has opened a newer stream."""
         self._heard_s = clock()
@@ -68,31 +68,33 @@ class Presence:
 
     def __init__(self, on_change: Callable[[], None], clock: Callable[[], float] = time.monotonic) -> None:
         self._on_change, self._clock = on_change, clock
-        self._open: set[Connection] = set()
+        self._open: dict[Client, list[Connection]] = {}
 
     @contextmanager
     def connected(self, client: Client) -> Iterator[Connection]:
         """The page's stream, while the block lasts. It takes the place of an older one of the same name: a tab that
         was doubled, or a connection whose end has not been noticed.
         """
-        connection = Connection(client, self._clock)
+        connection, all_of_it = Connection(self._clock), self._open.setdefault(client, [])
         if client.page:
-            for older in self._of(client):
+            for older in all_of_it:
                 older.replaced.set()
-        self._open.add(connection)
+        all_of_it.append(connection)
         self._on_change()
         try:
             yield connection
         finally:
-            self._open.discard(connection)
+            all_of_it.remove(connection)
+            self._forget_unless_open(client)
             self._on_change()
 
     def is_there(self, client: Client) -> bool:
         """Whether the page is connected and was heard lately."""
-        return any(connection.lives for connection in self._of(client))
+        return any(connection.lives for connection in self._open.get(client, ()))
 
-    def _of(self, client: Client) -> list[Connection]:
-        return [connection for connection in self._open if connection.client == client]
+    def _forget_unless_open(self, client: Client) -> None:
+        if not self._open.get(client):
+            self._open.pop(client, None)
 
 
 class Authority:

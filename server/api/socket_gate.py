@@ -20,7 +20,8 @@ LOGGED_OUT = 4401
 async def admit(socket: WebSocket) -> tuple[Service, Account] | None:
     """The service behind the socket, and who asks; None, and a refusal sent, where nobody is logged in."""
     service: Service = socket.app.state.service
-    account = await run_in_threadpool(service.auth.account_or_none, socket.cookies.get(COOKIE))
+    token = socket.cookies.get(COOKIE)
+    account = service.auth.recognised(token) or await run_in_threadpool(service.auth.account_or_none, token)
     if account is not None:
         return service, account
     await socket.send_denial_response(as_response(401, "nobody is logged in", "a log-in", "log in"))

@@ -5,6 +5,7 @@ import signal
 import sqlite3
 import time
 
+import httpx
 import pytest
 
 
@@ -243,6 +244,25 @@ def test_a_game_runs_while_the_arm_is_engaged(shared, therapist, session):
     assert picture.game == "reach"
     until(lambda: shared.service.therapy._course.picture.time_left_s < picture.time_left_s)
     assert shared.service.therapy.view().phase == "running"
+
+
+def test_sr7_a_stop_goes_through_whatever_session_a_page_names(therapist, session):
+    control(therapist, session, "start")
+    answer = therapist.post(f"/api/sessions/{session['id'] + 1}/control", json={"action": "stop"})
+    assert answer.json()["state"] == "stopped"
+
+
+def test_sr8_a_stop_waits_for_no_database(alone, person, enrol, look):
+    look(person)
+    session = opened(person, enrol(person)).json()
+    control(person, session, "start")
+    other = sqlite3.connect(alone.data / "mirrorlimb.sqlite", isolation_level=None)
+    other.execute("BEGIN EXCLUSIVE")
+    with pytest.raises(httpx.ReadTimeout):
+        person.get("/api/patients", timeout=0.5)
+    assert person.post(f"/api/sessions/{session['id']}/control", json={"action": "stop"}, timeout=1.0).is_success
+    other.execute("ROLLBACK")
+    other.close()
 
 
 # ---------------------------------------------------------------- when something dies
