@@ -113,6 +113,7 @@ class SimulatedDrive:
     def _put_in(self, angle_rad: Joints) -> None:
         joints = self._map.joints_rad(angle_rad)
         self.scene.place(joints, angle_rad)
+        self.scene.settle()
         self._regulator.begin(joints)
 
     def _advance(self, now_s: float) -> None:

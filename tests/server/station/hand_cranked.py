@@ -18,14 +18,20 @@ from server.experiments.cranked.station import DT_S, CrankedStation
 from server.messages import LiveTick, OpenSession, Wish, WishAnswer
 from server.station.demonstration import Demonstration
 from server.station.exo.simulated import SimulatedDrive
+from server.station.exo.simulated_arm.person import Spasticity
 
 
 class HandCranked(CrankedStation):
     """A cranked station that keeps its ticks."""
 
-    def __init__(self, demonstration: Demonstration | None = None, addresses: tuple[str, str] = ("s1", "s2")) -> None:
+    def __init__(
+        self,
+        demonstration: Demonstration | None = None,
+        addresses: tuple[str, str] = ("s1", "s2"),
+        spasticity: Spasticity | None = None,
+    ) -> None:
         self.config = StationConfig()
-        self.drive = SimulatedDrive(self.config.exoskeleton)
+        self.drive = SimulatedDrive(self.config.exoskeleton, spasticity=spasticity)
         super().__init__(self.config, self.drive, demonstration)
         self.addresses = addresses
         self.dialect = dialect_named("kinectv2-osc")

@@ -27,6 +27,9 @@ SHOULDER, ELBOW = slice(2 * N, 2 * N + 3), 2 * N + 3
 """Of the velocities."""
 
 
+SETTLING: Final = 25
+SETTLING_STEPS: Final = 10
+"""The arm settles in so many rounds of so many steps, each from rest."""
 ENGINE = "mujoco"
 
 
@@ -82,6 +85,14 @@ class Scene:
         position[ELBOW_AT + 1 :] = 0.0
         self._data.qvel[:] = 0.0
         self._forward(self._model, self._data)
+
+    def settle(self) -> None:
+        """Let the arm sink into its cuffs while the motors stand still; nobody drops an arm in."""
+        standing = self.rotor_rad.copy()
+        for _ in range(SETTLING):
+            self._step(self._model, self._data, nstep=SETTLING_STEPS)
+            self._data.qvel[:] = 0.0
+            self.rotor_rad[:] = standing
 
     def step(self, t_s: float) -> None:
         """Go on for `STEP_S` with the motors' torque; `t_s` is told to the muscles."""

@@ -68,7 +68,8 @@ def torques(
     """The motors' torque (n,) for the next step, and what is remembered to tell the arm's share of it.
 
     τ = clip(K (x_w − x) + D (v_w − v) + inertia, ± bound) + weight + friction, inside what the motor can give.
-    Friction is that of the wanted movement under position control and of the measured one where the drive is soft.
+    Friction is overcome for the wanted movement, as far as it is the drive's. Overcoming it for the arm's own would set
+    free what the drive does not know of the weight.
 
     Args:
         measured: (2, n) the motors' angle and velocity.
@@ -87,7 +88,7 @@ def torques(
             + gains[DAMPING, i] * (wanted[VELOCITY, i] - velocity)
             + share * load[INERTIA, i]
         )
-        moving = share * wanted[VELOCITY, i] + (1.0 - share) * velocity
+        moving = share * wanted[VELOCITY, i]
         bound, most = gains[BOUND, i], joints[STRONGEST, i]
         carried = load[WEIGHT, i] + friction_nm(moving, joints[COULOMB, i], joints[VISCOUS, i])
         torque[i] = min(max(min(max(effort, -bound), bound) + carried, -most), most)

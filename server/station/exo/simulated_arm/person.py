@@ -56,7 +56,7 @@ class HumanArm:
     """Upper arm, forearm, hand to its third knuckle; the shells are set to the arm, as therapists do."""
     shoulder_m: tuple[float, float, float] = (0.007, 0.0, 0.007)
     """Where the shoulder's centre lies, seen from where the exoskeleton's axes meet: nobody sits quite right."""
-    shoulder_nm_rad: float = 1.0
+    shoulder_nm_rad: float = 0.3
     """Passive stiffness towards the hanging arm."""
     shoulder_nm_s: float = 0.5
     elbow_nm_rad: float = 0.5
