@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import product
 
 from fusion.errors import MachineError
-from server.exoskeleton import Exoskeleton, ExoskeletonJoint
+from server.exoskeleton import Exoskeleton, ExoskeletonJoint, Follows
 from server.messages import JointLimits
 from server.station.exo.cia402 import objects
 from server.station.exo.cia402.objects import Entry
@@ -17,6 +17,8 @@ from server.station.exo.joint_map import JointMap
 
 OUTSIDE_RAD = 0.02
 """A joint this little outside its limits is inside."""
+AT_REST_RAD = 0.2
+"""A joint that follows nothing may stand so far from its `rest_rad`; it is held where it stands."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,6 +81,21 @@ def expect_inside(place: Place, angle_rad: float, bounds: Bounds, whose: str) ->
             f"{place} stands at {angle_rad:.2f} rad, outside {whose}",
             f"{bounds.min_rad:.2f} to {bounds.max_rad:.2f} rad",
             "bring the device there with nobody in it, or check homing, sign and offset_rad",
+        )
+
+
+def expect_rest(place: Place, angle_rad: float) -> None:
+    """Refuse a joint that follows nothing and stands elsewhere: nobody would ask for its way to its rest.
+
+    Raises:
+        MachineError: names the joint, where it stands and where it should.
+    """
+    joint = place.joint
+    if joint.follows is Follows.NONE and abs(angle_rad - joint.rest_rad) > AT_REST_RAD:
+        raise MachineError(
+            f"{place} follows nothing and stands at {angle_rad:.2f} rad",
+            f"within {AT_REST_RAD} rad of {place.key('rest_rad')} = {joint.rest_rad:g}",
+            "bring it there with nobody in the device",
         )
 
 

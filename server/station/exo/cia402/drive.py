@@ -16,7 +16,7 @@ from fusion.messages import Floats
 from server.exoskeleton import Exoskeleton, ExoskeletonJoint, Follows
 from server.messages import JointLimits
 from server.station.exo.cia402 import objects
-from server.station.exo.cia402.bounds import device_bounds, expect_inside, impose, patient_bounds
+from server.station.exo.cia402.bounds import device_bounds, expect_inside, expect_rest, impose, patient_bounds
 from server.station.exo.cia402.bus import Bus
 from server.station.exo.cia402.faults import words
 from server.station.exo.cia402.guard import Guard
@@ -60,8 +60,9 @@ class Cia402Drive:
         self._patience = Patience(
             SILENT_AFTER_BEATS * self._settings.heartbeat_s, round(WATCHDOG_S / self._settings.period_s)
         )
-        moved = [joint for joint in exoskeleton.joints if joint.follows is not Follows.NONE]
-        self.can_comply = all(joint.name in self._settings.carry_nm for joint in moved)
+        self._rests = np.array([joint.follows is Follows.NONE for joint in exoskeleton.joints])  # (n,) held where it is
+        led = [joint for joint in exoskeleton.joints if joint.follows is not Follows.NONE]
+        self.can_comply = all(joint.name in self._settings.carry_nm for joint in led)
         self._errands = ThreadPoolExecutor(1, "canopen errand")
         self._limits: tuple[JointLimits, ...] = ()
         self._fitting: Future[None] | None = None
@@ -83,6 +84,7 @@ class Cia402Drive:
             self._set_point = SetPoint.standing(self._joints_rad())
             for node, angle in zip(self._nodes, self._joints_rad().tolist(), strict=True):
                 expect_inside(node.place, angle, device_bounds(node.place.joint), "its own range")
+                expect_rest(node.place, angle)
         except BaseException:
             self._errands.shutdown()
             self._bus.close()
@@ -143,7 +145,7 @@ class Cia402Drive:
         if not self._guard.powered or self._is_fitting():
             self._set_point = SetPoint.standing(measured)
         else:
-            wanted = self._map.joints_rad(command.angle_rad)
+            wanted = np.where(self._rests, self._set_point.joints_rad, self._map.joints_rad(command.angle_rad))
             self._set_point = self._set_point.towards(command.mode, wanted, elapsed_s).yielding(share < 1, measured)
         self._send([self._limit_nm(*each) for each in zip(self._exoskeleton.joints, share, bound_nm, strict=True)])
 

@@ -74,8 +74,10 @@ def drives_in(folder: Path, heartbeat_s: float, resting: tuple[str, ...] = ()) -
     places = ["--control", str(drives[1]), "--journal", str(drives[2])]
     with subprocess.Popen([*command, *places], stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout.readline() == "listening\n"
-        yield Drives(*drives, process)
-        process.terminate()
+        try:
+            yield Drives(*drives, process)
+        finally:
+            process.terminate()
 
 
 @contextmanager
@@ -84,8 +86,10 @@ def moving_station(drives: Drives) -> Iterator[subprocess.Popen[str]]:
     command = [sys.executable, str(MOVING_STATION), str(drives.file)]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as station:
         assert station.stdout.readline() == "ticking\n"
-        yield station
-        station.kill()
+        try:
+            yield station
+        finally:
+            station.kill()
 
 
 def _text(heartbeat_s: float, resting: tuple[str, ...]) -> str:

@@ -6,10 +6,10 @@ from contextlib import ExitStack
 
 import msgspec
 import pytest
-from cia402_bench import Bench, emulated, four_joints
+from cia402_bench import Bench, emulated, follow, four_joints, powered, tick
 
 from fusion.errors import InputError, MachineError
-from server.exoskeleton import Cia402Settings, ExoskeletonJoint
+from server.exoskeleton import BUILT_IN, Cia402Settings, ExoskeletonJoint
 from server.station.exo.cia402 import Cia402Drive, objects
 from server.station.exo.cia402.objects import Entry
 
@@ -96,6 +96,20 @@ def test_a_joint_outside_its_own_range_is_not_powered(bench: Bench) -> None:
     assert "stands at 0.50 rad, outside its own range" in said
     assert "-2.40 to 0.30 rad" in said
     assert bench.states() == {"switch on disabled"}
+
+
+def test_a_joint_that_follows_nothing_is_not_moved_to_its_rest_but_refused_far_from_it() -> None:
+    exoskeleton = four_joints()
+    wrist = msgspec.structs.replace(BUILT_IN.joints[5], node=5, rest_rad=0.1)
+    with emulated(msgspec.structs.replace(exoskeleton, joints=(*exoskeleton.joints, wrist))) as bench:
+        bench.order("place wrist flexion 0.25")
+        with Cia402Drive(bench.exoskeleton) as drive:
+            start = powered(drive, bench).angle_rad
+            tick(drive, 0.4, lambda *_: follow(start))
+            assert bench.angles()["wrist flexion"] == pytest.approx(0.25, abs=2e-3)
+        bench.order("place wrist flexion 0.35")
+        with pytest.raises(MachineError, match=r"joints\[4\].rest_rad = 0\.1"), Cia402Drive(bench.exoskeleton):
+            pass
 
 
 def test_sr1_every_limit_is_in_the_drive_after_the_start(bench: Bench) -> None:
