@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fastapi import APIRouter
 
-from db.limits import PassiveRange, PatientLimits
+from db.limits import PatientLimits
 from db.patient import Patient, PatientCreate, PatientPublic, PatientUpdate
 from db.queries import patients, sessions
 from db.therapy_session import SessionDetail
@@ -27,15 +27,9 @@ def enrol_patient(form: PatientCreate, account: TherapistDep, session: SessionDe
     return _public(patients.add_patient(session, form, account.id or 0))
 
 
-@router.get("/cautious-range", responses=answers(401, 503))
-def read_cautious_range(_: AccountDep) -> PassiveRange:
-    """What a form for a new patient begins with: within what a relaxed adult arm allows."""
-    return PassiveRange()
-
-
 @router.get("/cautious-limits", responses=answers(401, 503))
 def read_cautious_limits(_: AccountDep) -> PatientLimits:
-    """The same with torques and help."""
+    """What a form for a new patient begins with: within what a relaxed adult arm allows."""
     return PatientLimits()
 
 

@@ -78,10 +78,6 @@ def test_the_forms_first_limits_are_those_kept_where_none_are_given(therapist, n
         assert kept[name] == value
 
 
-def test_the_forms_first_range_is_the_one_kept_where_none_is_given(therapist, new_patient):
-    assert therapist.get("/api/patients/cautious-range").json() == new_patient("Qian")["passive_range"]
-
-
 def test_a_patients_range_is_kept(therapist):
     narrow = {joint: {"min_rad": 0.1, "max_rad": 0.9} for joint in ("plane", "elevation", "rotation", "elbow")}
     form = {"name": "Sun", "healthy_side": "left", "passive_range": narrow}

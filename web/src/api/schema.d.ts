@@ -137,29 +137,9 @@ export interface paths {
         };
         /**
          * Read Cautious Limits
-         * @description The same with torques and help.
-         */
-        get: operations["read_cautious_limits_api_patients_cautious_limits_get"];
-        put?: never;
-        post?: never;
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/api/patients/cautious-range": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        /**
-         * Read Cautious Range
          * @description What a form for a new patient begins with: within what a relaxed adult arm allows.
          */
-        get: operations["read_cautious_range_api_patients_cautious_range_get"];
+        get: operations["read_cautious_limits_api_patients_cautious_limits_get"];
         put?: never;
         post?: never;
         delete?: never;
@@ -2259,44 +2239,6 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["PatientLimits"];
-                };
-            };
-            /** @description Nobody is logged in */
-            401: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["ErrorResponse"];
-                };
-            };
-            /** @description Something this machine must provide is missing */
-            503: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["ErrorResponse"];
-                };
-            };
-        };
-    };
-    read_cautious_range_api_patients_cautious_range_get: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["PassiveRange"];
                 };
             };
             /** @description Nobody is logged in */
