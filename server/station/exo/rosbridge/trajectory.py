@@ -38,8 +38,7 @@ def trajectory(
     first = np.clip(joints_rad + joints_rad_s * lead_s, ends[:, 0], ends[:, 1])
     brake_s = _brake_s(first, joints_rad_s, braking_rad_s2, ends)
     velocity = np.where(brake_s > 0, joints_rad_s, 0.0)
-    points = [_point(first, velocity, brake_s, after_s, lead_s) for after_s in (0.0, *_instants(brake_s))]
-    return JointTrajectory(names, tuple(points))
+    return JointTrajectory(names, _points(first, velocity, brake_s, lead_s))
 
 
 def _brake_s(first: Floats, velocity: Floats, braking: Floats, ends: Floats) -> Floats:
@@ -59,9 +58,13 @@ def _instants(brake_s: Floats) -> list[float]:
     return kept[::-1]
 
 
-def _point(first: Floats, velocity: Floats, brake_s: Floats, after_s: float, lead_s: float) -> Point:
-    """Every joint `after_s` after the first point."""
-    braked = np.minimum(after_s / np.maximum(brake_s, APART_S), 1.0)
-    angle = first + velocity * brake_s * braked * (1.0 - braked / 2.0)
+def _points(first: Floats, velocity: Floats, brake_s: Floats, lead_s: float) -> tuple[Point, ...]:
+    """The first point and each instant at which a joint comes to stand."""
+    after_s = [0.0, *_instants(brake_s)]
+    braked = np.minimum(np.array(after_s)[:, None] / np.maximum(brake_s, APART_S), 1.0)  # (k, n)
+    angles = first + velocity * brake_s * braked * (1.0 - braked / 2.0)
     left = velocity * (1.0 - braked)
-    return Point(tuple(angle.tolist()), tuple(left.tolist()), time_of(lead_s + after_s))
+    return tuple(
+        Point(tuple(angle), tuple(speed), time_of(lead_s + after))
+        for angle, speed, after in zip(angles.tolist(), left.tolist(), after_s, strict=True)
+    )
