@@ -14,6 +14,7 @@ from rich.table import Table
 
 from fusion.errors import InputError, MirrorlimbError
 from server.cli.exoskeleton_edit import changed, edited, write
+from server.cli.exoskeleton_home import walk_home
 from server.cli.exoskeleton_mover import Mover
 from server.cli.exoskeleton_wizard import Dialogue, walk
 from server.exoskeleton import Exoskeleton, ExoskeletonJoint, Follows, device_limits
@@ -60,6 +61,19 @@ def wizard(
     with make_drive(device) as drive, Mover(drive, device) as mover:
         changes = walk(device, mover, radians(by), person)
     _mend(file, device, changes, person)
+
+
+@exoskeleton.command()
+def home(file: File) -> None:
+    """Let CiA 402 drives that do not know where they stand find their home, joint by joint, each after a yes."""
+    device = read_exoskeleton(file)
+    if not sys.stdin.isatty():
+        raise InputError("Homing asks before every movement, and nobody can answer here", "a terminal")
+    person = Dialogue(_ask, typer.echo)
+    if person.agrees("Is nobody's arm in it, and its emergency stop in your hand?"):
+        walk_home(device, person)
+    else:
+        typer.echo("Nothing was opened.")
 
 
 def _ask(question: str) -> str:

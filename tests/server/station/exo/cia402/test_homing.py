@@ -5,7 +5,10 @@ from __future__ import annotations
 import pytest
 from cia402_bench import Bench, emulated, four_joints, powered
 
-from fusion.errors import MachineError
+from fusion.errors import InputError, MachineError
+from server.cli.exoskeleton_home import walk_home
+from server.cli.exoskeleton_wizard import Dialogue
+from server.exoskeleton import BUILT_IN
 from server.station.exo.cia402 import Cia402Drive
 from server.station.exo.cia402.homing import home, is_homed
 
@@ -36,3 +39,25 @@ def test_a_fault_on_the_way_home_is_said() -> None:
         bench.order("fault elbow 0x7305")
         with pytest.raises(MachineError, match="'elbow'"):
             home(bench.exoskeleton, "elbow")
+
+
+def test_people_are_asked_before_each_joint_that_needs_it_and_a_no_leaves_it(bench: Bench) -> None:
+    bench.order("forget elbow")
+    bench.order("forget shoulder plane")
+    asked: list[str] = []
+    said: list[str] = []
+
+    def answer(question: str) -> str:
+        asked.append(question)
+        return "y" if "elbow" in question else ""
+
+    walk_home(bench.exoskeleton, Dialogue(answer, said.append))
+    assert len(asked) == 2
+    assert is_homed(bench.exoskeleton, "elbow")
+    assert not is_homed(bench.exoskeleton, "shoulder plane")
+    assert "elbow: homed, and holds." in said
+
+
+def test_a_device_without_drives_of_this_kind_has_no_homing() -> None:
+    with pytest.raises(InputError, match="simulated"):
+        walk_home(BUILT_IN, Dialogue(str, str))
