@@ -103,8 +103,9 @@ class StationLink:
         for task in self._tasks:
             task.cancel()
         await asyncio.gather(*self._tasks, return_exceptions=True)
-        if self._channels is not None:
-            self._channels.close()
+        channels, self._channels = self._channels, None  # a page that leaves now has nobody to tell
+        if channels is not None:
+            channels.close()
         if self._folder is not None:
             shutil.rmtree(self._folder, ignore_errors=True)
 

@@ -4,6 +4,7 @@ import time
 
 import httpx
 import pytest
+from websockets.exceptions import InvalidStatus
 
 from db.account import Role
 from db.queries import accounts
@@ -182,3 +183,9 @@ def test_sr11_a_page_without_a_name_comes_into_charge_of_nothing(colleague, in_c
     assert "Mirrorlimb-Client" in answer.json()["detail"]["expected"]
     stopped = colleague.post(f"{in_charge.path}/control", json={"action": "stop"})
     assert stopped.json()["state"] == "stopped", "a stop is never refused for that"
+
+
+def test_a_stream_of_a_page_with_an_impossible_name_is_refused(therapist, look):
+    with pytest.raises(InvalidStatus) as refused:
+        look(therapist, "a%20b")
+    assert refused.value.response.status_code == 422
