@@ -1,7 +1,8 @@
 """The judge of a tick: what of the command or of the measured joint is outside its limits (SR-1, SR-2).
 
 A set-point may begin anew where the joint is measured (at engage and resume, and wherever the drive has been yielding);
-any other step obeys velocity, acceleration and jerk.
+any other step obeys velocity, acceleration and jerk. They hold at every tick; between two of them the velocity may pass
+its limit by what the jerk does in half a tick, and the way by jerk · dt³ / 12.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from math import isfinite
 from typing import Final
 
 from server.experiments.gate.rig import GateRig
-from server.messages import DriveState
+from server.messages import DriveState, JointLimits
 from server.station.exo import measured
 from server.station.exo.driver import DriveCommand
 from server.station.exo.limiter import Box, Motion
@@ -61,13 +62,15 @@ def _anew(rig: GateRig) -> tuple[tuple[Motion, ...], ...]:
     free = rig.now is DriveState.ENGAGED and not rig.state.facts.leads
     if not (waits or begins or free or min(rig.before.help.share) < 1.0):
         return ((),) * len(rig.limits)
-    reading = measured.sound(rig.inputs.reading, rig.before.angle_rad, rig.t_s)
-    return tuple(map(_starts, as_measured(replace(rig.inputs, reading=reading)), rig.boxes))
+    before, elapsed_s = rig.before, rig.t_s - (rig.before.last_s or 0.0)
+    reading = measured.sound(rig.inputs.reading, before.angle_rad, before.seen_rad, rig.t_s, elapsed_s)
+    return tuple(map(_starts, as_measured(replace(rig.inputs, reading=reading)), rig.boxes, rig.limits))
 
 
-def _starts(here: Motion, box: Box) -> tuple[Motion, ...]:
-    """Free, a set-point stays behind at the end of the range."""
-    return here, Motion(min(max(here.angle_rad, box.low_rad), box.high_rad))
+def _starts(here: Motion, box: Box, joint: JointLimits) -> tuple[Motion, ...]:
+    """Free, a set-point stays behind at the soft margin; stopped, at the end of the range."""
+    ends = ((box.low_rad, box.high_rad), (joint.min_rad, joint.max_rad))
+    return here, *(Motion(min(max(here.angle_rad, low), high)) for low, high in ends)
 
 
 def _step(before: Motion, after: Motion, box: Box, ends_rad: tuple[float, float], dt_s: float) -> list[str]:
@@ -75,7 +78,7 @@ def _step(before: Motion, after: Motion, box: Box, ends_rad: tuple[float, float]
     low, high = min(ends_rad[0], before.angle_rad), max(ends_rad[1], before.angle_rad)
     beyond = {
         "range": max(low - after.angle_rad, after.angle_rad - high),
-        "step": abs(after.angle_rad - before.angle_rad) - box.velocity_rad_s * dt_s,
+        "step": abs(after.angle_rad - before.angle_rad) - box.velocity_rad_s * dt_s - box.jerk_rad_s3 * dt_s**3 / 12,
         "velocity": abs(velocity) - box.velocity_rad_s,
         "acceleration": max(
             abs(acceleration) - box.acceleration_rad_s2,

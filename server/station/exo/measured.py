@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from math import isfinite
 
-from server.messages import JointLimits
+from server.messages import EXO_JOINTS, JointLimits
 from server.station.exo.driver import JOINT_COUNT, WATCHDOG_S, ZERO, DriveReading, Joints
 from server.station.exo.evidence import SafetyInputs
 
 OLD_S = WATCHDOG_S
 """A measurement further from now than this says nothing of where the arm is."""
+FURTHEST_RAD = 10.0
+JUMP_RAD, QUICKEST_RAD_S = 0.1, 15.0
+"""No joint moves further than that between two measurements, even by hand."""
 RANGE_TOLERANCE_RAD = 0.02
 """A led arm that is measured this far outside the patient's range is a fault."""
 YIELDING_TOLERANCE_RAD = 0.05
@@ -24,9 +27,19 @@ ASTRAY_RAD, ASTRAY_S = 0.2, 0.2
 """A stiffly led joint that is so far from its set-point for so long does not obey, or does not tell the truth."""
 
 
-def sound(reading: DriveReading, expected_rad: Joints, now_s: float) -> DriveReading:
-    """The reading; a fault at the expected angles instead of one that is broken or too old (SR-2)."""
-    reason = _unusable(reading, now_s)
+def sound(
+    reading: DriveReading, expected_rad: Joints, seen_rad: Joints | None, now_s: float, elapsed_s: float
+) -> DriveReading:
+    """The reading; a fault at the expected angles instead of one that cannot be true (SR-2).
+
+    Args:
+        reading: what the drive says.
+        expected_rad: the set-points.
+        seen_rad: where the joints were measured last; None = nothing is known of it.
+        now_s: the tick's time.
+        elapsed_s: since the last tick.
+    """
+    reason = _unusable(reading, now_s) or _jumped(reading, seen_rad, elapsed_s)
     if not reason:
         return reading
     return DriveReading(reading.t_s, expected_rad, ZERO, ZERO, reading.fault or reason)
@@ -38,7 +51,26 @@ def _unusable(reading: DriveReading, now_s: float) -> str:
         return "The drive's measurement is not usable (missing joints or not a number)."
     if not abs(now_s - reading.t_s) <= OLD_S:
         return "The drive's measurement is not of now: it has stopped measuring."
+    if max(map(abs, reading.angle_rad)) > FURTHEST_RAD:
+        return "The drive measured an angle that no arm can have."
     return ""
+
+
+def _jumped(reading: DriveReading, seen_rad: Joints | None, elapsed_s: float) -> str:
+    """A set-point may begin anew where the arm is measured, so a measurement that jumps must not be believed."""
+    if seen_rad is None:
+        return ""
+    most_rad = JUMP_RAD + QUICKEST_RAD_S * elapsed_s
+    for name, angle, before in zip(EXO_JOINTS, reading.angle_rad, seen_rad, strict=True):
+        if abs(angle - before) > most_rad:
+            return f"The {name}'s measurement jumped."
+    return ""
+
+
+def seen(reading: DriveReading, before_rad: Joints | None) -> Joints | None:
+    """Where the joints were measured last, true or not; what is no measurement is passed over."""
+    usable = len(reading.angle_rad) == JOINT_COUNT and all(map(isfinite, reading.angle_rad))
+    return reading.angle_rad if usable else before_rad
 
 
 def fault(inputs: SafetyInputs, astray_s: Joints, share: Joints) -> str:

@@ -63,7 +63,8 @@ def _as_chosen(state: SafetyState, wanted: Wish) -> SafetyState:
 
 def put_in(state: SafetyState, reading: DriveReading, now_s: float) -> SafetyState:
     """Somebody has put an arm in: what is held from now on is where it lies, not where the last one lay."""
-    return replace(state, motions=tuple(map(Motion, measured.sound(reading, state.angle_rad, now_s).angle_rad)))
+    lies = measured.sound(reading, state.angle_rad, None, now_s, 0.0).angle_rad
+    return replace(state, motions=tuple(map(Motion, lies)), seen_rad=None)
 
 
 def step(
@@ -72,13 +73,19 @@ def step(
     """One tick: judge, change state where that is due, move the set-points inside every limit."""
     elapsed_s = 0.0 if state.last_s is None else max(0.0, now_s - state.last_s)
     dt_s = min(max(elapsed_s, SHORTEST_STEP_S), LONGEST_STEP_S)
-    reading = measured.sound(inputs.reading, state.angle_rad, now_s)
-    inputs = inputs if reading is inputs.reading else replace(inputs, reading=reading)
+    raw, reading = inputs.reading, measured.sound(inputs.reading, state.angle_rad, state.seen_rad, now_s, elapsed_s)
+    inputs = inputs if reading is raw else replace(inputs, reading=reading)
     target = evidence.usable(inputs.target)
     free = evidence.free_speed(target, inputs.evidence_age_s, config)
     state = _judged(state, inputs, target, free, elapsed_s, config)
     after = gate.watch(state.gate, state.facts, config, now_s)
-    state = replace(state, gate=after, yielded_at=_yielded_at(state, after, inputs), last_s=now_s)
+    state = replace(
+        state,
+        gate=after,
+        yielded_at=_yielded_at(state, after, inputs),
+        seen_rad=measured.seen(raw, state.seen_rad),
+        last_s=now_s,
+    )
     if after.state is DriveState.ENGAGED and not state.facts.leads:
         return _moved(set_points.left_free(state, inputs), inputs, (), dt_s)
     if after.state is DriveState.ENGAGED and target is not None:

@@ -35,6 +35,8 @@ class SafetyState:
     """For how long each joint has been resisting (SR-18)."""
     astray_s: Joints = ZERO
     """For how long each joint has been far from its set-point (SR-2)."""
+    seen_rad: Joints | None = None
+    """Where the joints were measured last."""
     yielded_at: Joints | None = None
     """Where the arm was measured when a compliant hold began, and is held; None in every other state."""
     facts: Facts = field(default_factory=Facts)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from server.config import GateConfig
-from server.messages import EXO_JOINTS, DriveState
+from server.messages import EXO_JOINTS, DriveState, JointLimits
 from server.station.exo import evidence
 from server.station.exo.brake import Brake
 from server.station.exo.driver import ONE, Joints
@@ -97,10 +97,14 @@ def rested(state: SafetyState, inputs: SafetyInputs, dt_s: float) -> SafetyState
 
 def _taken_over(state: SafetyState, inputs: SafetyInputs) -> tuple[Motion, ...]:
     """An arm that was not led stiffly need not be where its set-point is: it is brought to rest from where it is."""
-    return tuple(
-        here if share < 1.0 else motion
-        for share, motion, here in zip(state.help.share, state.motions, as_measured(inputs), strict=True)
-    )
+    joints = zip(state.help.share, state.motions, as_measured(inputs), inputs.limits, strict=True)
+    return tuple(_in_range(here, joint) if share < 1.0 else motion for share, motion, here, joint in joints)
+
+
+def _in_range(motion: Motion, joint: JointLimits) -> Motion:
+    if joint.min_rad <= motion.angle_rad <= joint.max_rad:
+        return motion
+    return Motion(min(max(motion.angle_rad, joint.min_rad), joint.max_rad))
 
 
 def _resting(state: SafetyState, inputs: SafetyInputs, dt_s: float) -> tuple[Motion, ...]:

@@ -5,24 +5,48 @@ from __future__ import annotations
 from dataclasses import replace
 from math import inf, nan
 
+import numpy as np
 import pytest
-from quick_gate import HERE, RIGID, at, engaged, run
+from quick_gate import HERE, RIGID, at, engaged, gate_rig, run
 
 from server.experiments.gate.rig import GOOD
-from server.messages import Assistance, DriveState
+from server.messages import Assistance, DriveState, Reset
 from server.station.exo.driver import ZERO, DriveReading
 from server.station.exo.measured import ASTRAY_RAD, sound
+from server.station.exo.safety_state import SafetyState
 
 
 @pytest.mark.parametrize("t_s", [9.8, 10.2, nan, -inf])
 def test_sr2_a_measurement_that_is_not_of_now_is_a_fault_at_the_expected_angles(t_s: float) -> None:
-    got = sound(DriveReading(t_s, (9.0,) * 4, (9.0,) * 4, ZERO), HERE, 10.0)
+    got = sound(DriveReading(t_s, (9.0,) * 4, (9.0,) * 4, ZERO), HERE, None, 10.0, 0.01)
     assert "stopped measuring" in got.fault
     assert (got.angle_rad, got.velocity_rad_s) == (HERE, ZERO)
 
 
 def test_sr2_a_drives_own_fault_is_told_before_ours() -> None:
-    assert sound(DriveReading(0.0, (), ZERO, ZERO, fault="The motor is hot."), HERE, 10.0).fault == "The motor is hot."
+    told = sound(DriveReading(0.0, (), ZERO, ZERO, fault="The motor is hot."), HERE, None, 10.0, 0.01)
+    assert told.fault == "The motor is hot."
+
+
+@pytest.mark.parametrize("mode", Assistance)
+@pytest.mark.parametrize("elbow_rad", [1e300, 1.3])
+def test_sr2_a_measurement_that_jumps_is_a_fault_and_no_set_point_goes_there(
+    mode: Assistance, elbow_rad: float
+) -> None:
+    rig = engaged(mode, 0.5)
+    before = rig.command.angle_rad
+    run(rig, 0.01, scene=replace(GOOD, spoilt=lambda r: replace(r, angle_rad=(*r.angle_rad[:3], elbow_rad))))
+    assert rig.now is DriveState.FAULT
+    assert rig.command.angle_rad == pytest.approx(before, abs=0.01)
+    run(rig, 1.0)
+    assert rig.wish(Reset(number=9))
+
+
+def test_sr2_an_angle_that_no_arm_can_have_moves_nothing_even_before_a_session() -> None:
+    rig = gate_rig()
+    rig.state = SafetyState()
+    run(rig, 0.01, scene=replace(GOOD, spoilt=lambda r: replace(r, angle_rad=(1e300,) * 4)))
+    assert max(rig.command.angle_rad) < 10.0
 
 
 def test_sr2_a_drive_that_stops_measuring_is_a_fault_within_a_tenth_of_a_second() -> None:
@@ -64,5 +88,11 @@ def test_sr1_a_free_arm_may_lean_on_the_end_of_its_range_up_to_the_tolerance(
 ) -> None:
     rig = engaged(Assistance.FREE)
     end = rig.limits[3].max_rad
-    run(rig, 0.01, scene=replace(GOOD, spoilt=lambda r: replace(r, angle_rad=(*r.angle_rad[:3], end + over_rad))))
+    for elbow_rad in np.arange(HERE[3], end + over_rad, 0.01):
+        measured_rad = (*HERE[:3], float(elbow_rad))
+        run(
+            rig,
+            0.01,
+            scene=replace(GOOD, spoilt=lambda r, to=measured_rad: replace(r, angle_rad=to, velocity_rad_s=ZERO)),
+        )
     assert rig.now is state

@@ -187,7 +187,7 @@ def test_sr2_nan_infinity_and_wrong_lengths_are_refused_and_hold(part: str, wron
         (DriveReading(0.0, AT_REST[:3], ZERO, ZERO), "not usable"),
         (DriveReading(0.0, AT_REST, ZERO, ZERO, interaction_nm=(nan,) * 4), "not usable"),
         (DriveReading(0.0, AT_REST, (9.0, 0.0, 0.0, 0.0), ZERO), "plane was measured moving faster"),
-        (DriveReading(0.0, (0.6, 2.5, 0.0, 0.6), ZERO, ZERO), "elevation was measured outside"),
+        (DriveReading(0.0, (AT_REST[0], 2.5, *AT_REST[2:]), ZERO, ZERO), "elevation's measurement jumped"),
         (DriveReading(0.0, AT_REST, ZERO, (0.0, 0.0, 0.0, 40.0)), "elbow was measured using more torque"),
         (DriveReading(0.0, AT_REST, ZERO, ZERO, fault="The motor is hot."), "motor is hot"),
     ],
@@ -394,8 +394,8 @@ def test_sr7_an_arm_that_waits_does_not_sink() -> None:
 def test_an_arm_that_is_moved_by_hand_before_it_is_enabled_is_held_where_it_was_put() -> None:
     rig = Rig()
     rig.run(0.1, target())
-    put = DriveReading(0.0, (0.9, 0.9, 0.2, 1.0), ZERO, ZERO)
-    rig.tick(target(), reading=put)
+    for elevation_rad in (0.5, 0.6, 0.7, 0.8, 0.9):
+        rig.tick(target(), reading=DriveReading(0.0, (0.9, elevation_rad, 0.2, 1.0), ZERO, ZERO))
     assert rig.command.angle_rad[1] == 0.9
 
 
