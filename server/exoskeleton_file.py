@@ -10,7 +10,7 @@ from urllib.parse import urlsplit
 import msgspec
 
 from fusion.errors import InputError
-from server.exoskeleton import FAMILIES, Exoskeleton, ExoskeletonJoint, Follows, device_limits
+from server.exoskeleton import FAMILIES, Exoskeleton, ExoskeletonJoint, Follows, StopCategory, device_limits
 from server.typed_file import nearest, read_content, typed
 
 NEEDED = (Follows.PLANE, Follows.ELEVATION, Follows.ELBOW)
@@ -156,6 +156,11 @@ def _check_rosbridge(exoskeleton: Exoskeleton, file: str) -> None:
     if not _is_websocket(settings.url):
         said = "is missing" if not settings.url else f"cannot be used: '{settings.url}'"
         raise InputError(f"{file}: the key 'rosbridge.url' {said}", 'such as "ws://127.0.0.1:9090"')
+    for index, joint in enumerate(exoskeleton.joints):
+        if joint.stop is StopCategory.COMPLIANT:
+            raise InputError(
+                f"{file}: joints[{index}].stop is '{joint.stop}' ('{joint.name}'), which rosbridge cannot do", "hold"
+            )
     for key in ("trajectory_topic", "state_topic"):
         if not getattr(settings, key).startswith("/"):
             raise InputError(

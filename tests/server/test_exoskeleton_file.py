@@ -100,6 +100,7 @@ WRONG = [
     (ROSBRIDGE, "ws://127.0.0.1:9091", "http://127.0.0.1:9091", ["'rosbridge.url' cannot be used", "ws://"]),
     (ROSBRIDGE, "ws://127.0.0.1:9091", "ws://127.0.0.1:909100", ["'rosbridge.url' cannot be used"]),
     (ROSBRIDGE, '"/joint_states"', '"joint_states"', ["rosbridge.state_topic", "/joint_states"]),
+    (ROSBRIDGE, 'stop = "hold"', 'stop = "compliant"', ["joints[0].stop", "shoulder_plane_joint", "rosbridge cannot"]),
     (ROSBRIDGE, "lead_s = 0.02", "lead_s = 0.5", ["rosbridge.lead_s", "<= 0.1"]),
     # what does not go together
     (SIMULATED, "min_rad = -0.7", "min_rad = 2.4", ["joints[0].min_rad is not below max_rad", "2.4 and 2.3"]),

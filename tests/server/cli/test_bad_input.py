@@ -13,12 +13,14 @@ from fusion.recording.writer import write_recording
 from fusion.virtual_patient.trial import virtual_recording
 
 PAGE = Path(__file__).parents[3] / "docs" / "bad-input.md"
+EXAMPLES = PAGE.parents[1] / "examples" / "exoskeletons"
 COMMAND = [sys.executable, "-W", "error", "-c", "from server.cli.main import main; main()"]
 
 
 def said_by(folder, *words, port=None):
     """Run the command in `folder`; its sentence, with the port and the folder's own path left out."""
-    ended = subprocess.run([*COMMAND, *map(str, words)], cwd=folder, capture_output=True, text=True, timeout=120)
+    command = [*COMMAND, *map(str, words)]
+    ended = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=120, stdin=subprocess.DEVNULL)
     assert ended.returncode == 2, ended.stderr
     assert ended.stdout.strip() == ""
     assert "Traceback" not in ended.stderr
@@ -59,6 +61,11 @@ def break_a_line(folder):
         ("serve", "--config", "wrong-value.toml"),
         ("serve", "--config", "notes.txt"),
         ("serve", "--data", "notes.txt"),
+        ("serve", "--config", "with-arm.toml"),
+        ("exoskeleton", "check", "none.toml"),
+        ("exoskeleton", "check", "arm.toml"),
+        ("exoskeleton", "wizard", "robot.toml"),
+        ("emulate", "cia402", "--exoskeleton", "robot.toml"),
         ("experiments",),
         ("experiments", "--out", "out", "--recordings", "nowhere"),
         ("experiments", "--out", "out", "--recordings", "exercise"),
@@ -70,6 +77,9 @@ def test_the_sentence_is_the_one_on_the_page(tmp_path, recording, page, words):
     (tmp_path / "garbage.mcap").write_bytes(bytes(range(256)) * 20)
     (tmp_path / "wrong-key.toml").write_text("[station]\nrate = 100\n")
     (tmp_path / "wrong-value.toml").write_text('[station]\nrate_hz = "fast"\n')
+    (tmp_path / "with-arm.toml").write_text('[station]\nexoskeleton = "arm.toml"\n')
+    (tmp_path / "arm.toml").write_text((EXAMPLES / "simulated.toml").read_text().replace("sign = 1 ", "", 1))
+    (tmp_path / "robot.toml").write_text((EXAMPLES / "rosbridge-seven-joints.toml").read_text())
     assert f"| `{' '.join(words)}` | {said_by(tmp_path, *words)} |" in page
     assert (tmp_path / "notes.txt").read_text() == "some notes"
 
@@ -109,6 +119,16 @@ def test_a_database_that_cannot_be_opened_is_named_and_left_as_it_is(tmp_path, p
         kept.close()
     if make is make_garbage:
         assert database.read_text().startswith("somebody's notes")
+
+
+def test_a_robot_that_nobody_answers_for_is_named_once(tmp_path, page):
+    with socket.create_server(("127.0.0.1", 0)) as gone:
+        port = gone.getsockname()[1]
+    text = (EXAMPLES / "rosbridge-seven-joints.toml").read_text().replace("9091", str(port))
+    (tmp_path / "robot.toml").write_text(text)
+    ports = "[station.sensors.ports]\nk2s = 0\n"
+    (tmp_path / "config.toml").write_text(f'port = 0\n[station]\nexoskeleton = "robot.toml"\n{ports}')
+    assert said_by(tmp_path, "serve", "--config", "config.toml", "--data", "data", port=port) in page
 
 
 def test_a_web_port_in_use_is_named(tmp_path, page):
