@@ -19,6 +19,7 @@ from server.station.exo.cia402 import objects
 from server.station.exo.cia402.bounds import device_bounds, expect_inside, expect_rest, impose, patient_bounds
 from server.station.exo.cia402.bus import Bus
 from server.station.exo.cia402.faults import words
+from server.station.exo.cia402.following import Following
 from server.station.exo.cia402.guard import Guard
 from server.station.exo.cia402.link import Link, Measured
 from server.station.exo.cia402.opening import SILENT_AFTER_BEATS, expect_station, history, open_node, start_node
@@ -63,6 +64,8 @@ class Cia402Drive:
         self._rests = np.array([joint.follows is Follows.NONE for joint in exoskeleton.joints])  # (n,) held where it is
         led = [joint for joint in exoskeleton.joints if joint.follows is not Follows.NONE]
         self.can_comply = all(joint.name in self._settings.carry_nm for joint in led)
+        self._soft = np.zeros(len(exoskeleton.joints), dtype=bool)
+        self._following = Following(exoskeleton.joints)
         self._errands = ThreadPoolExecutor(1, "canopen errand")
         self._limits: tuple[JointLimits, ...] = ()
         self._fitting: Future[None] | None = None
@@ -123,7 +126,7 @@ class Cia402Drive:
 
     def read(self, now_s: float) -> DriveReading:
         """The measurement that answered the newest SYNC."""
-        if self._guard.judge(now_s, self._bus.trouble or self._refused_range()):
+        if self._guard.judge(now_s, self._bus.trouble or self._refused_range() or self._strayed(now_s)):
             self._errands.submit(self._note_all)
         links = list(zip(self._links, self._units, strict=True))
         return DriveReading(
@@ -142,11 +145,12 @@ class Cia402Drive:
         share = self._map.spread(command.share, 1.0)
         bound_nm = self._map.spread(command.torque_nm, float("inf"))
         measured = self._joints_rad()
+        self._soft = share < 1
         if not self._guard.powered or self._is_fitting():
             self._set_point = SetPoint.standing(measured)
         else:
             wanted = np.where(self._rests, self._set_point.joints_rad, self._map.joints_rad(command.angle_rad))
-            self._set_point = self._set_point.towards(command.mode, wanted, elapsed_s).yielding(share < 1, measured)
+            self._set_point = self._set_point.towards(command.mode, wanted, elapsed_s).yielding(self._soft, measured)
         self._send([self._limit_nm(*each) for each in zip(self._exoskeleton.joints, share, bound_nm, strict=True)])
 
     def fit(self, limits: tuple[JointLimits, ...]) -> None:
@@ -175,6 +179,12 @@ class Cia402Drive:
             return ""
         error = self._fitting.exception()
         return str(error) if error else ""
+
+    def _strayed(self, now_s: float) -> str:
+        if not self._guard.powered:
+            self._following.begin()
+            return ""
+        return self._following.judge(self._set_point.joints_rad, self._joints_rad(), self._soft, now_s)
 
     def _is_fitting(self) -> bool:
         return self._fitting is not None and not self._fitting.done()
