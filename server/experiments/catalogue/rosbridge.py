@@ -24,6 +24,7 @@ LEFT: Final = 0.1
 """With so much of the greatest speed left it counts as standing: the rest is the servos' own settling."""
 WAVE_RAD: Final = 0.3
 WAVE_RAD_S: Final = 3.0
+MOVING_RAD_S: Final = 0.2
 FASTEST_S: Final = 0.8
 """Before it is left alone the robot is moved for at most so long."""
 TICK_MS: Final = 1.0
@@ -71,7 +72,8 @@ def run(setup: Setup) -> Outcome:
         bench = Bench(robot, drive)
         spent_s, behind_s = _followed(bench, setup.long(30.0, 3.0))
         setup.progress(0.3)
-        stops = [_left_alone(bench, np.random.default_rng((setup.seed, i))) for i in range(setup.many(40, 3))]
+        tries = (_left_alone(bench, np.random.default_rng((setup.seed, i))) for i in range(setup.many(40, 3)))
+        stops = [late_s for late_s in tries if late_s is not None]
         setup.progress(0.8)
         faults = {typed: _noticed(bench, typed, setup.many(10, 1)) for typed in ("silent", "frozen", "drop")}
         stalled_s = _stalled(bench)
@@ -93,8 +95,11 @@ def _followed(bench: Bench, seconds: float) -> tuple[list[float], list[float]]:
     return found
 
 
-def _left_alone(bench: Bench, random: np.random.Generator) -> float:
-    """Move every angle at a speed of its own, cease without a word, and see how long after its ramp it stands, s."""
+def _left_alone(bench: Bench, random: np.random.Generator) -> float | None:
+    """Move every angle at a speed of its own, cease without a word, and see how long after its ramp it stands, s.
+
+    None where the machine kept this program from moving it.
+    """
     limits = device_limits(BUILT_IN)
     here = np.array(bench.drive.read(time.monotonic()).angle_rad)
     middle = np.array([(joint.min_rad + joint.max_rad) / 2 for joint in limits])
@@ -111,6 +116,9 @@ def _left_alone(bench: Bench, random: np.random.Generator) -> float:
     bench.follow(away, float(random.uniform(0.4, FASTEST_S)))
     begun_s = moved_s = time.monotonic()
     began = np.abs(bench.drive.read(begun_s).velocity_rad_s)
+    if began.max() < MOVING_RAD_S:
+        bench.stand(0.3)
+        return None
     while (now_s := time.monotonic()) - begun_s < 1.0:
         if np.abs(bench.drive.read(now_s).velocity_rad_s).max() > LEFT * began.max():
             moved_s = now_s
