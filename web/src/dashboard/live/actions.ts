@@ -5,11 +5,14 @@ import type { Charge } from "./charge";
 /** Those that need a person in charge; everybody may hold and stop. */
 const IN_CHARGE: readonly Action[] = ["start", "resume", "reset"];
 
-/** Whether a button does anything now. What is really allowed the station decides; this spares a useless press. */
-export function isPossible(action: Action, tick: LiveTick | null, charge: Charge): boolean {
-  if (action === "stop") return true;
-  if (IN_CHARGE.includes(action) && charge !== "mine") return false;
-  return tick !== null && fits(action, tick);
+/** Whether somebody may wish it; what is really allowed the service decides, this spares a useless press. */
+export function mayWish(action: Action, charge: Charge): boolean {
+  return charge === "mine" || !IN_CHARGE.includes(action);
+}
+
+/** Whether it would do anything in the arm's present state. */
+export function isPossible(action: Action, tick: LiveTick | null): boolean {
+  return action === "stop" || (tick !== null && fits(action, tick));
 }
 
 function fits(action: Action, { state, may_enable }: LiveTick): boolean {

@@ -2,7 +2,7 @@
 import type { Action } from "../../api/types";
 import { t } from "../../strings";
 import { StopButton } from "../stop/button";
-import { isPossible } from "./actions";
+import { isPossible, mayWish } from "./actions";
 import type { Charge } from "./charge";
 import { type Feed, useFromFeed } from "./feed";
 import type { Wishes } from "./wishes";
@@ -16,7 +16,8 @@ interface Props {
 }
 
 export function Controls({ feed, charge, wishes }: Props) {
-  const possible = useFromFeed(feed, 15, (now) => possibleOf(now, charge)).split(" ");
+  const possible = useFromFeed(feed, 15, possibleOf).split(" ");
+  const isStopped = useFromFeed(feed, 10, (now) => now.link === "open" && now.newest?.tick.state === "stopped");
   return (
     <div class="controls">
       {ACTIONS.map((action) => (
@@ -24,7 +25,7 @@ export function Controls({ feed, charge, wishes }: Props) {
           key={action}
           type="button"
           class={action === "start" || action === "resume" ? "go" : ""}
-          disabled={!possible.includes(action)}
+          disabled={!possible.includes(action) || !mayWish(action, charge)}
           aria-busy={wishes.pending === action}
           title={t(`control.${action}.means`)}
           onClick={() => wishes.wish(action)}
@@ -34,12 +35,12 @@ export function Controls({ feed, charge, wishes }: Props) {
           {wishes.pending === action && <span class="key-hint">…</span>}
         </button>
       ))}
-      <StopButton {...wishes.stop} />
+      <StopButton {...wishes.stop} isStopped={isStopped} />
     </div>
   );
 }
 
-function possibleOf(feed: Feed, charge: Charge): string {
+function possibleOf(feed: Feed): string {
   const tick = feed.link === "open" ? (feed.newest?.tick ?? null) : null;
-  return ACTIONS.filter((action: Action) => isPossible(action, tick, charge)).join(" ");
+  return ACTIONS.filter((action: Action) => isPossible(action, tick)).join(" ");
 }

@@ -1,5 +1,5 @@
 // The live stream as the page uses it: a plain object that always holds the newest message.
-import { useEffect, useState } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
 import { connectLive, type Link, STALE_S } from "../../api/live";
 import type { LiveMessage } from "../../api/types";
 import { ASK_WHO } from "../hooks";
@@ -69,9 +69,11 @@ function follow(feed: Feed): () => void {
  */
 export function useFromFeed<T>(feed: Feed, timesPerS: number, read: (feed: Feed) => T): T {
   const [value, setValue] = useState(() => read(feed));
-  // `read` is the same function written anew at every drawing, so it does not count.
+  // `read` is a function written anew at every drawing: the newest is asked, since it may know more than the first.
+  const asked = useRef(read);
+  asked.current = read;
   useEffect(() => {
-    const timer = setInterval(() => setValue(() => read(feed)), 1000 / timesPerS);
+    const timer = setInterval(() => setValue(() => asked.current(feed)), 1000 / timesPerS);
     return () => clearInterval(timer);
   }, [feed, timesPerS]);
   return value;

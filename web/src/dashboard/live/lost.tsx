@@ -6,7 +6,7 @@ import "./lost.css";
 
 export function Lost({ charge }: { charge: Charge }) {
   return (
-    <div class="over lost" role="alert" data-testid="lost">
+    <div class="lost" role="alert" data-testid="lost">
       <div class="card">
         <StateSign state="lost" />
         <strong>{t(charge === "other" ? "lost.other" : "lost.held")}</strong>

@@ -75,13 +75,13 @@ function Live({ session, feed, account }: Props & { session: Session }) {
         <View3dSwitch {...view3d} />
         {who.isShown && <Who feed={feed} session={session.id} onClose={who.close} />}
         {ending && <EndQuestion session={session.id} onCancel={() => setEnding(false)} />}
-        {isLost && <Lost charge={charge} />}
       </div>
       <div class="live-foot">
         <Exo feed={feed} session={session.id} charge={charge} />
         <Sensors feed={feed} />
         <Aside feed={feed} session={session} who={who} onEnd={() => setEnding(true)} />
       </div>
+      {isLost && <Lost charge={charge} />}
       {wishes.problem && (
         <div class="toast">
           <ProblemBox problem={wishes.problem} onClose={wishes.forget} />

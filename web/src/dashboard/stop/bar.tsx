@@ -31,7 +31,7 @@ function Bar({ feed, session }: { feed: Feed; session: number }) {
       <a class="button" href={hrefOf({ page: "live" })}>
         {t("nav.live")}
       </a>
-      <StopButton {...stop} />
+      <StopButton {...stop} isStopped={state === "stopped"} />
       <ProblemBox problem={stop.problem} onClose={stop.forget} />
     </aside>
   );

@@ -3,7 +3,13 @@ import { t } from "../../strings";
 import type { StopPress } from "./press";
 import "./stop.css";
 
-export function StopButton({ progress, press }: Pick<StopPress, "progress" | "press">) {
+interface Props extends Pick<StopPress, "progress" | "press"> {
+  /** The station says that the arm is stopped, by whomever: then nobody is still waited for. */
+  isStopped: boolean;
+}
+
+export function StopButton({ progress: answered, press, isStopped }: Props) {
+  const progress = answered === "unanswered" && isStopped ? "done" : answered;
   return (
     <>
       <button

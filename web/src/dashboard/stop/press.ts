@@ -1,7 +1,8 @@
 // Pressing stop, and what is seen of it: at once that it was sent, after the answer that it was done.
 import { useRef, useState } from "preact/hooks";
-import type { Problem } from "../../api/client";
+import { Problem } from "../../api/client";
 import { type Progress, sendUrgent } from "../../api/urgent";
+import { t } from "../../strings";
 import { problemOf } from "../hooks";
 
 /** How long "done" stays; a stop that nobody answered stays until the next press. */
@@ -31,8 +32,14 @@ export function useStopPress(session: number): StopPress {
       })
       .catch((error: unknown) => {
         show("unanswered");
-        setProblem(problemOf(error));
+        setProblem(worded(problemOf(error)));
       });
   };
   return { progress, problem, press, forget: () => setProblem(null) };
+}
+
+/** Whoever gets no answer to a stop must not read about networks first. */
+function worded(problem: Problem): Problem {
+  if (problem.status !== 0) return problem;
+  return new Problem(0, { what: t("stop.problem"), expected: "", remedy: t("stop.problem.remedy") });
 }

@@ -29,6 +29,8 @@ export const live = {
   "stop.sent.spoken": "Stop was sent.",
   "stop.done.spoken": "The arm has been stopped.",
   "stop.unanswered.spoken": "Nobody answered the stop. Press the emergency stop at the device.",
+  "stop.problem": "Nobody answered the stop",
+  "stop.problem.remedy": "press the emergency stop at the device",
   "stop.bar": "The open session: state and stop",
   "authority.mine": "You are in charge, from this page.",
   "authority.other": "In charge: {name}. You can watch, hold and stop.",

@@ -31,6 +31,8 @@ export const live: Record<keyof typeof english, string> = {
   "stop.sent.spoken": "停止已发送。",
   "stop.done.spoken": "手臂已停止。",
   "stop.unanswered.spoken": "停止没有得到应答，请按设备上的急停按钮。",
+  "stop.problem": "停止没有得到应答",
+  "stop.problem.remedy": "请按设备上的急停按钮",
   "stop.bar": "进行中的治疗：状态与停止",
   "authority.mine": "由您在此页面控制。",
   "authority.other": "控制者：{name}。您可以查看、暂停和停止。",
