@@ -8,7 +8,7 @@ from random import Random
 import pytest
 
 from fusion.experiments.experiment import Setup
-from server.experiments.catalogue import commands, fault_sequences
+from server.experiments.catalogue import assistance, commands, fault_sequences
 from server.experiments.gate import wild
 from server.experiments.gate.faults import FAULTS, Fault
 from server.experiments.gate.judge import excursions
@@ -42,6 +42,12 @@ def test_sr1_sr2_no_wild_command_takes_joint_or_command_out_of_its_limits() -> N
 def test_sr8_after_random_faults_the_gate_is_safe_in_time_and_nothing_leaves_its_limits() -> None:
     outcome = fault_sequences.run(Setup(seed=5, effort=EFFORT))
     assert all(row.met for row in outcome.beside), outcome.tables
+
+
+def test_help_rises_where_the_simulated_arm_is_kept_back_and_fades_after_it() -> None:
+    outcome = assistance.run(Setup(effort=0.3))
+    assert outcome.beside[0].met, outcome.tables[0].rows
+    assert all(row[-1] == "yes" for row in outcome.tables[0].rows)
 
 
 @pytest.mark.parametrize("fault", FAULTS, ids=lambda fault: fault.name)
