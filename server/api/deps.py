@@ -15,6 +15,7 @@ from server.api.auth import COOKIE, Auth
 from server.api.authority import PAGE_NAME, Client
 from server.api.controls import Controls
 from server.api.errors import ApiError
+from server.api.figures import Figures
 from server.api.service import Service
 from server.api.therapy import Therapy
 
@@ -46,6 +47,11 @@ def get_therapy(service: ServiceDep) -> Therapy:
     return service.therapy
 
 
+def get_figures(service: ServiceDep) -> Figures:
+    """What recordings say."""
+    return service.figures
+
+
 def get_controls(service: ServiceDep) -> Controls:
     """What people want of the arm."""
     return service.controls
@@ -54,6 +60,7 @@ def get_controls(service: ServiceDep) -> Controls:
 SessionDep = Annotated[Session, Depends(get_session, scope="function")]
 AuthDep = Annotated[Auth, Depends(get_auth)]
 TherapyDep = Annotated[Therapy, Depends(get_therapy)]
+FiguresDep = Annotated[Figures, Depends(get_figures)]
 ControlsDep = Annotated[Controls, Depends(get_controls)]
 TokenDep = Annotated[str | None, Depends(cookie_scheme)]
 

@@ -14,7 +14,7 @@ from db.errors import DatabaseError
 from db.queries import sessions
 from db.therapy_session import SessionStatus, TherapySession
 from server.api import session_store
-from server.api.therapy import Therapy
+from server.api.figures import Figures
 
 log = logging.getLogger(__name__)
 
@@ -31,10 +31,10 @@ async def close_left_open(database: Database, data: Path) -> list[int]:
         return []
 
 
-async def measure_all(therapy: Therapy, left: list[int]) -> None:
+async def measure_all(figures: Figures, left: list[int]) -> None:
     """Measure what the last run could not; long recordings take their time, so this runs beside everything else."""
     for session_id in left:
-        await therapy.measure(session_id)
+        await figures.measure(session_id)
 
 
 def _close_left_open(database: Database, data: Path) -> list[int]:

@@ -17,6 +17,7 @@ from server.api.controls import Controls
 from server.api.course import warm_up
 from server.api.data_folder import DATABASE, until_station_is_gone
 from server.api.demo import Demo
+from server.api.figures import Figures
 from server.api.forms import Station
 from server.api.journal import Journal
 from server.api.latency import LatencyMeter
@@ -45,6 +46,7 @@ class Service:
     presence: Presence
     therapy: Therapy
     controls: Controls
+    figures: Figures
     latency: LatencyMeter
     relay: Relay
     view3d: View3D
@@ -68,7 +70,8 @@ async def running_service(
         journal = Journal(database)
         presence = Presence(link.beat)
         authority = Authority(presence)
-        therapy = Therapy(config, data, database, link, journal, authority)
+        figures = Figures(data, database, journal)
+        therapy = Therapy(config, data, database, link, journal, figures, authority)
         link.in_charge = therapy.in_charge
         controls = Controls(therapy.opened, link, journal, authority)
         latency = LatencyMeter()
@@ -84,10 +87,10 @@ async def running_service(
         await run_in_threadpool(warm_up)
         left = await close_left_open(database, data)
         await link.open()
-        recovery = asyncio.create_task(measure_all(therapy, left), name="recovery")
+        recovery = asyncio.create_task(measure_all(figures, left), name="recovery")
         stack.callback(recovery.cancel)
         demo = Demo(database, auth, config.demo and config.station.exoskeleton.drive == SIMULATED)
-        yield Service(config, database, auth, demo, link, presence, therapy, controls, latency, relay, view3d)
+        yield Service(config, database, auth, demo, link, presence, therapy, controls, figures, latency, relay, view3d)
 
 
 def describe_station(service: Service) -> Station:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import logging
 import secrets
 import time
 from contextlib import suppress
@@ -17,7 +16,7 @@ from db.database import Database
 from db.errors import DatabaseError
 from db.patient import Patient
 from db.therapy_session import SessionDetail, SessionPublic, SessionStatus, TherapySession
-from fusion.errors import InputError, MirrorlimbError, RefusedError
+from fusion.errors import InputError, RefusedError
 from fusion.skeleton import Side
 from games.catalogue import GAMES
 from games.game import GameView
@@ -25,11 +24,11 @@ from server.api import session_store
 from server.api.authority import Authority, Client
 from server.api.controls import check_level
 from server.api.course import Course, Plan, counted, goal
-from server.api.forms import Curves, SessionOpen
+from server.api.figures import Figures
+from server.api.forms import SessionOpen
 from server.api.journal import Journal
 from server.api.limits import session_limits
 from server.api.live import SessionView
-from server.api.measure import measure, read_curves
 from server.api.station_link import StationLink
 from server.config import Config
 from server.messages import (
@@ -41,8 +40,6 @@ from server.messages import (
     OpenSession,
     SessionClosed,
 )
-
-log = logging.getLogger(__name__)
 
 CLOSED_WITHIN_S = 15.0
 """Ramp to rest, last flush of the recording; then we go on without waiting."""
@@ -57,13 +54,21 @@ class Therapy:
         database: where sessions are kept.
         link: the station.
         journal: where events go.
+        figures: worked out at the end.
         authority: given to whoever opens a session.
     """
 
     def __init__(
-        self, config: Config, data: Path, database: Database, link: StationLink, journal: Journal, authority: Authority
+        self,
+        config: Config,
+        data: Path,
+        database: Database,
+        link: StationLink,
+        journal: Journal,
+        figures: Figures,
+        authority: Authority,
     ) -> None:
-        self._config, self._data, self._authority = config, data, authority
+        self._config, self._data, self._figures, self._authority = config, data, figures, authority
         self._database, self._link, self._journal = database, link, journal
         self._was_in_charge = ""
         self._course: Course | None = None
@@ -158,34 +163,8 @@ class Therapy:
             self._course = None
             self._authority.end()
             await self._journal.written()
-            await self.measure(session_id)
+            await self._figures.measure(session_id)
             return await run_in_threadpool(session_store.detail, self._database, session_id)
-
-    async def measure(self, session_id: int) -> None:
-        """Store what a session's recording says was measured; what fails is tried again at the next start."""
-        try:
-            await run_in_threadpool(self._measure_now, session_id)
-        except Exception as error:  # whatever it is, the session is over and must read so
-            expected = isinstance(error, MirrorlimbError | DatabaseError | OSError)
-            log.warning("session %d could not be measured: %s", session_id, error, exc_info=not expected)
-            self._journal.note(session_id, "not measured", str(error))
-
-    async def curves(self, session_id: int) -> Curves:
-        """A session's curves, from its recording.
-
-        Raises:
-            ApiError: there is no such session.
-            RecordingError: its recording cannot be read.
-        """
-        found = await run_in_threadpool(session_store.existing_session, self._database, session_id)
-        over = self._course is None or self._course.plan.id != session_id
-        return await run_in_threadpool(read_curves, self._data / found.recording, over)
-
-    def _measure_now(self, session_id: int) -> None:
-        found = session_store.existing_session(self._database, session_id)
-        counts = session_store.counts(self._database, session_id)
-        metrics = measure(self._data / found.recording, Side(found.affected_side).other, counts)
-        session_store.store_metrics(self._database, session_id, metrics)
 
     async def _open_at_station(self, begun: TherapySession, patient: Patient, limits: tuple[JointLimits, ...]) -> None:
         recording = self._data / begun.recording

@@ -6,7 +6,7 @@ from fastapi import APIRouter
 
 from db.queries import sessions
 from db.therapy_session import EventPublic, SessionDetail, SessionPublic
-from server.api.deps import AccountDep, ClientDep, ControlsDep, SessionDep, TherapistDep, TherapyDep
+from server.api.deps import AccountDep, ClientDep, ControlsDep, FiguresDep, SessionDep, TherapistDep, TherapyDep
 from server.api.errors import answers, not_found
 from server.api.forms import (
     Answer,
@@ -51,9 +51,9 @@ def read_session(session_id: int, _: AccountDep, session: SessionDep) -> Session
 
 
 @router.get("/{session_id}/curves", responses=answers(401, 404, 422, 503))
-async def read_curves(session_id: int, _: AccountDep, therapy: TherapyDep) -> Curves:
+async def read_curves(session_id: int, _: AccountDep, figures: FiguresDep) -> Curves:
     """The angles of both arms over the session."""
-    return await therapy.curves(session_id)
+    return await figures.curves(session_id)
 
 
 @router.get("/{session_id}/events", responses=answers(401, 404, 422, 503))

@@ -354,6 +354,6 @@ def test_an_error_of_ours_in_measuring_still_ends_the_session(monkeypatch, alone
     def broken(*_):
         raise ZeroDivisionError("a mean of nothing")
 
-    monkeypatch.setattr("server.api.therapy.measure", broken)
+    monkeypatch.setattr("server.api.figures.measure", broken)
     answer = end(person, session)
     assert (answer.status_code, answer.json()["status"], answer.json()["measured"]) == (200, "ended", False)

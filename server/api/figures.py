@@ -1,0 +1,59 @@
+"""What a session's recording says of it: figures, stored once, and curves, read when somebody asks."""
+
+from __future__ import annotations
+
+import logging
+from pathlib import Path
+
+from fastapi.concurrency import run_in_threadpool
+
+from db.database import Database
+from db.errors import DatabaseError
+from db.therapy_session import SessionStatus
+from fusion.errors import MirrorlimbError
+from fusion.skeleton import Side
+from server.api import session_store
+from server.api.forms import Curves
+from server.api.journal import Journal
+from server.api.measure import measure, read_curves
+
+log = logging.getLogger(__name__)
+
+
+class Figures:
+    """Reads recordings in worker threads.
+
+    Args:
+        data: the data folder.
+        database: where sessions are kept.
+        journal: where it is noted that something could not be measured.
+    """
+
+    def __init__(self, data: Path, database: Database, journal: Journal) -> None:
+        self._data, self._database, self._journal = data, database, journal
+
+    async def measure(self, session_id: int) -> None:
+        """Store what a session's recording says was measured; what fails is tried again at the next start."""
+        try:
+            await run_in_threadpool(self._measure_now, session_id)
+        except Exception as error:  # whatever it is, the session is over and must read so
+            expected = isinstance(error, MirrorlimbError | DatabaseError | OSError)
+            log.warning("session %d could not be measured: %s", session_id, error, exc_info=not expected)
+            self._journal.note(session_id, "not measured", str(error))
+
+    async def curves(self, session_id: int) -> Curves:
+        """A session's curves, from its recording.
+
+        Raises:
+            ApiError: there is no such session.
+            RecordingError: its recording cannot be read.
+        """
+        found = await run_in_threadpool(session_store.existing_session, self._database, session_id)
+        is_over = found.status is not SessionStatus.OPEN
+        return await run_in_threadpool(read_curves, self._data / found.recording, is_over)
+
+    def _measure_now(self, session_id: int) -> None:
+        found = session_store.existing_session(self._database, session_id)
+        counts = session_store.counts(self._database, session_id)
+        metrics = measure(self._data / found.recording, Side(found.affected_side).other, counts)
+        session_store.store_metrics(self._database, session_id, metrics)
