@@ -1,7 +1,7 @@
 // What happened in a session, in order.
 import type { SessionEvent } from "../../api/types";
 import { t } from "../../strings";
-import { clockTime, sentence } from "../format";
+import { clockTime, figure, sentence } from "../format";
 import { translatedOr } from "./metrics";
 
 export function EventList({ events }: { events: readonly SessionEvent[] }) {
@@ -32,10 +32,16 @@ function kindOf(event: SessionEvent): string {
 }
 
 /** Buttons and targets are told by a word that has its own text; all else is a sentence. */
-function textOf({ kind, text }: SessionEvent): string {
+function textOf({ kind, text, data }: SessionEvent): string {
   if (kind === "control") return translatedOr(`control.${text}`, text);
+  if (kind === "assistance") return helpOf(data?.mode, data?.level);
   const [word = ""] = text.split(",", 1);
   return translatedOr(`event.${kind}.${word}`, sentence(text));
+}
+
+function helpOf(mode: unknown, level: unknown): string {
+  const name = translatedOr(`help.${mode}`, String(mode));
+  return mode === "assisted" ? t("event.assistance.most", { name, most: figure(100 * Number(level)) }) : name;
 }
 
 function stateOf(state: unknown): string {

@@ -10,6 +10,8 @@ interface Wanted {
 const FIRST: readonly Wanted[] = [
   { name: "movements" },
   { name: "range_of_movement", joint: "elevation" },
+  { name: "own_work_share" },
+  { name: "own_range", joint: "elevation" },
   { name: "sparc" },
   { name: "active_minutes" },
 ];

@@ -20,6 +20,9 @@ describe("a figure", () => {
     expect(amountOf(metric("trunk_displacement", 0.034, "m"))).toBe("3.4 cm");
     expect(amountOf(metric("success_rate", 0.874))).toBe("87 %");
     expect(amountOf(metric("movements", 41))).toBe("41");
+    expect(amountOf(metric("own_work_share", 0.314))).toBe("31 %");
+    expect(amountOf(metric("own_effort", 1.27, "N m"))).toBe("1.3 Nm");
+    expect(amountOf(metric("drive_work", 41.2, "J"))).toBe("41 J");
     expect(amountOf(metric("time_engaged", 244.2, "s"))).toBe("244 s");
   });
 
@@ -41,6 +44,15 @@ describe("the groups", () => {
     const groups = grouped(all);
     expect(groups.flatMap((group) => group.metrics)).toHaveLength(all.length);
     expect(groups.at(-1)).toMatchObject({ id: "other", metrics: [{ name: "grip_force" }] });
+  });
+
+  test("tell the arm's own part from the exoskeleton's", () => {
+    const names = ["own_work", "drive_work", "own_work_share", "help", "own_effort", "own_range_lowest", "soft_holds"];
+    const groups = grouped(names.map((name) => metric(name, 1)));
+    expect(groups.map(({ id, metrics }) => [id, metrics.length])).toEqual([
+      ["help", 5],
+      ["own", 2],
+    ]);
   });
 
   test("say a caveat once", () => {

@@ -8,6 +8,8 @@ const GROUPS = [
   { id: "exercise", byJoint: false, names: /^(active_minutes|movements|targets_\w+|success_rate)$/ },
   { id: "movement", byJoint: false, names: /^(movement_time|peak_speed|mean_speed|path_ratio|sparc|trunk_\w+)$/ },
   { id: "range", byJoint: true, names: /^range_/ },
+  { id: "help", byJoint: false, names: /^(minutes_\w+|help\w*|\w+_work|own_work_share|soft_holds|pain_calls)$/ },
+  { id: "own", byJoint: true, names: /^own_/ },
   { id: "mirror", byJoint: true, names: /^(symmetry|lag)$/ },
   { id: "time", byJoint: false, names: /^time_/ },
   { id: "sensors", byJoint: true, names: /^sensor_/ },
@@ -64,6 +66,7 @@ export function translatedOr(key: string, otherwise: string): string {
 
 type Unit = readonly [(value: number) => string, string];
 
+const IN_PERCENT = new Set(["success_rate", "own_work_share", "help", "help_allowed"]);
 const PERCENT: Unit = [(value) => figure(value * 100), " %"];
 
 const UNITS: Record<string, Unit> = {
@@ -71,6 +74,8 @@ const UNITS: Record<string, Unit> = {
   m: [(value) => figure(value * 100, 1), " cm"],
   "m/s": [(value) => figure(value, 2), " m/s"],
   s: [(value) => figure(value, value < 10 ? 2 : 0), " s"],
+  "N m": [(value) => figure(value, 1), " Nm"],
+  J: [(value) => figure(value, value < 10 ? 1 : 0), " J"],
   min: [(value) => figure(value, 1), " min"],
   Hz: [(value) => figure(value, 1), " /s"],
   "1": [(value) => figure(value, Number.isInteger(value) ? 0 : 2), ""],
@@ -84,7 +89,7 @@ export function amountOf(metric: Metric): string {
 }
 
 function unitOf(metric: Metric): Unit {
-  if (metric.name === "success_rate") return PERCENT;
+  if (IN_PERCENT.has(metric.name)) return PERCENT;
   return UNITS[metric.unit] ?? [(value) => figure(value, 2), ` ${metric.unit}`];
 }
 

@@ -16,6 +16,7 @@ export const live = {
   "control.start": "Start",
   "control.hold": "Hold",
   "control.resume": "Resume",
+  "control.pain": "It hurts",
   "control.reset": "Reset",
   "control.stop": "STOP",
   "control.stop.keys": "Space or Esc",

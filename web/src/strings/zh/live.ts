@@ -18,6 +18,7 @@ export const live: Record<keyof typeof english, string> = {
   "control.start": "开始",
   "control.hold": "暂停",
   "control.resume": "继续",
+  "control.pain": "患者说疼",
   "control.reset": "复位",
   "control.stop": "停止",
   "control.stop.keys": "空格或 Esc",
