@@ -156,29 +156,40 @@ def _phase(runs: Sequence[Run], phase: str) -> tuple[Cell, ...]:
 
 
 def _joints_table(name: str, runs: Sequence[Run]) -> Table:
-    drive = [_drive(one) for one in runs]
-    whole = [late(one.course.measured_rad, one.course.truth_rad, one.judged) for one in runs]
+    stages = [_stages(one) for one in runs]
     rows: tuple[tuple[Cell, ...], ...] = tuple(
         (
             joint,
-            *(1e3 * float(np.median([one.delay_s[i] for one in found])) for found in (drive, whole)),
-            1e3 * float(np.median([one.rms_rad[i] for one in drive])),
-            *(float(np.median([getattr(one, part)[i] for one in whole])) for part in ("rms_rad", "rms_shifted_rad")),
+            *(1e3 * _median([each[stage].delay_s[i] for each in stages]) for stage in range(4)),
+            1e3 * _median([each[2].rms_rad[i] for each in stages]),
+            _median([each[3].rms_rad[i] for each in stages]),
+            _median([each[3].rms_shifted_rad[i] for each in stages]),
         )
         for i, joint in enumerate(EXO_JOINTS)
     )
-    heads = (
-        Column("drive's delay [ms]", 0),
-        Column("whole delay [ms]", 0),
-        Column("drive's rms [mrad]"),
-        Column("whole rms [rad]", 3),
-        Column("rms less the delay [rad]", 3),
-    )
+    delays = columns("sensors [ms]", "calm and limits [ms]", "drive [ms]", "all [ms]", digits=0)
+    heads = (Column("drive off [mrad]"), Column("all off [rad]", 3), Column("all off, less the delay [rad]", 3))
     caption = (
-        "Joint by joint, median of the runs: measured behind commanded (the drive), measured behind the mirrored truth "
-        "(everything). The plane counts little near a hanging arm, where it means little"
+        "Joint by joint, median of the runs: how late the sensors' target is behind the mirrored truth, the command "
+        "behind the target, the motors behind the command, the motors behind the truth; and how far off they are, rms. "
+        "The plane counts little near a hanging arm, where it means little"
     )
-    return Table(f"{name}-joints", caption, (Column("joint"), *heads), rows)
+    return Table(f"{name}-joints", caption, (Column("joint"), *delays, *heads), rows)
+
+
+def _stages(one: Run) -> tuple[Late, Late, Late, Late]:
+    """Truth to target, target to command, command to motors, truth to motors."""
+    course, rows = one.course, one.judged
+    return (
+        late(course.target_rad, course.truth_rad, rows),
+        late(course.commanded_rad, course.target_rad, rows),
+        _drive(one),
+        late(course.measured_rad, course.truth_rad, rows),
+    )
+
+
+def _median(values: Sequence[float]) -> float:
+    return float(np.median(values))
 
 
 def _each_table(runs: Sequence[Run]) -> Table:

@@ -30,8 +30,8 @@ def test_covering_a_lens_moves_the_hand_no_further_than_the_sensors_are_off(outc
 
 
 def test_the_drive_is_not_what_delays_the_arm(outcome: Outcome) -> None:
-    for _, drive_ms, _, drive_mrad, *_ in outcome.tables[1].rows:
-        assert float(drive_ms) <= 10.0
+    for _, _, _, drive_ms, all_ms, drive_mrad, *_ in outcome.tables[1].rows:
+        assert float(drive_ms) <= min(10.0, float(all_ms))
         assert float(drive_mrad) < 10.0
 
 
