@@ -37,6 +37,7 @@ File = Annotated[Path, typer.Argument(metavar="FILE", help="An exoskeleton file 
 def check(file: File) -> None:
     """Read the file as the station would, and show what it says; nothing is opened and nothing moves."""
     device = read_exoskeleton(file)
+    make_drive(device)  # what only the drive's family can tell: a bus that is too slow, an extra that is missing
     console = Console(highlight=False)
     console.print(f"{device.name}: {_reached(device)}", markup=False, soft_wrap=True)
     console.print(_joints(device))

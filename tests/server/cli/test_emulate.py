@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import socket
 import subprocess
 import sys
 import time
@@ -60,6 +61,18 @@ def test_what_cannot_be_emulated_is_said_in_one_sentence(tmp_path, words, said) 
     assert ended.returncode == 2
     assert "Traceback" not in ended.stderr
     assert re.search(said, ended.stderr)
+
+
+def test_a_port_that_is_taken_is_said(tmp_path) -> None:
+    path = tmp_path / "mine.toml"
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = taken.getsockname()[1]
+        path.write_text(EXAMPLE.read_text("utf-8").replace(":9091", f":{port}"), "utf-8")
+        words = [*COMMAND, "rosbridge", "--exoskeleton", path]
+        ended = subprocess.run(words, capture_output=True, text=True, timeout=60)
+    assert ended.returncode == 2
+    assert "Traceback" not in ended.stderr
+    assert f"Port {port} cannot be used" in ended.stderr
 
 
 def test_an_emulated_robot_stays_on_this_machine(tmp_path) -> None:

@@ -234,6 +234,13 @@ def test_check_shows_every_joint_and_what_is_left_to_each_angle(example) -> None
         assert f"\n {angle} " in shown.stdout
 
 
+def test_sr12_check_says_what_only_the_drive_can_tell(tmp_path) -> None:
+    path = _mine(tmp_path, "cia402-four-joints.toml", "bitrate = 1_000_000", "bitrate = 50_000")
+    ended = CliRunner().invoke(exoskeleton, ["check", str(path)])
+    assert isinstance(ended.exception, InputError)
+    assert "bitrate" in str(ended.exception)
+
+
 def test_the_wizard_wants_somebody_to_ask() -> None:
     ended = CliRunner().invoke(exoskeleton, ["wizard", str(EXAMPLES / "simulated.toml")], input="y\n" * 20)
     assert isinstance(ended.exception, InputError)
