@@ -7,7 +7,18 @@ from pathlib import Path
 from fusion.errors import MachineError
 from fusion.recording.log import LogAbout
 from server.config import StationConfig
-from server.messages import CloseSession, FollowBody, Hold, OpenSession, Pain, Reset, SessionClosed, Stop, Wish
+from server.messages import (
+    CloseSession,
+    DriveState,
+    FollowBody,
+    Hold,
+    OpenSession,
+    Pain,
+    Reset,
+    SessionClosed,
+    Stop,
+    Wish,
+)
 from server.station.exo import patient_range, safety
 from server.station.exo.driver import Drive
 from server.station.exo.safety_state import SafetyState
@@ -45,7 +56,7 @@ class Desk:
             return self._follow(wish, state, now_s), ""
         if isinstance(wish, Stop | Pain):
             self._last_stop = wish.number
-        if isinstance(wish, Reset):
+        if isinstance(wish, Reset) and state.gate.state in (DriveState.STOPPED, DriveState.FAULT):
             # The gate refuses until the drive's fault is gone, so a drive that needs this is asked for twice.
             self._drive.reset()
         return safety.wish(state, wish, now_s)

@@ -49,7 +49,8 @@ def _unhelpful(state: SafetyState, wanted: Wish) -> str:
 
 def _as_chosen(state: SafetyState, wanted: Wish) -> SafetyState:
     if isinstance(wanted, OpenSession):
-        return replace(state, help=assistance.chosen(state.help, wanted.assistance, wanted.level))
+        # Another patient: what the last one needed says nothing.
+        return replace(state, help=assistance.chosen(Help(share=state.help.share), wanted.assistance, wanted.level))
     if not isinstance(wanted, SetAssistance):
         return state
     # An arm that the drive did not lead stiffly need not be where its set-point is: it is led from where it is.

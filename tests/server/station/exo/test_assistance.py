@@ -196,3 +196,13 @@ def test_a_session_opens_with_the_assistance_that_it_was_agreed_with() -> None:
     run(rig, 1.5)
     assert (rig.state.help.mode, rig.state.help.level) == (Assistance.ASSISTED, 0.4)
     assert max(rig.state.help.share) <= 0.4 + 1e-9
+
+
+def test_what_one_patient_needed_says_nothing_of_the_next() -> None:
+    rig = assisted(0.0, 8.0)
+    assert max(rig.state.help.needed) < 0.5
+    rig.arm.push_nm = (0.0,) * 4
+    rig.wish(CloseSession(number=3))
+    run(rig, 1.0)
+    assert rig.wish(opening(Assistance.ASSISTED, 0.9))
+    assert rig.state.help.needed == (0.9,) * 4

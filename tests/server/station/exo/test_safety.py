@@ -20,6 +20,7 @@ from server.station.exo.mapping import JointTarget
 from server.station.exo.patient_range import boxes, inside_device, refused
 from server.station.exo.safety_state import SafetyState
 from server.station.exo.simulated import AT_REST, SimulatedDrive
+from server.station.exo.simulated_arm.person import Spasticity
 from server.station.exo.softness import device_of
 
 STATION = StationConfig()
@@ -383,6 +384,25 @@ def test_an_arm_that_is_put_in_after_a_stop_is_not_pulled_to_where_the_last_one_
     rig.run(0.5, target())
     assert rig.command.angle_rad == pytest.approx(AT_REST, abs=1e-3)
     assert max(map(abs, rig.reading.velocity_rad_s)) < 0.1
+
+
+def test_sr18_a_spastic_catch_of_the_simulated_arm_is_given_way_to_and_its_pull_falls_at_once() -> None:
+    rig = Rig(drive=SimulatedDrive(STATION.exoskeleton, spasticity=Spasticity()))
+    rig.run(0.05, target())
+    assert rig.wish(Enable(number=1)) == ""
+    for tick in range(600):  # bent slowly, stretched quickly
+        rig.tick(target(moved(0.0, 0.0, 0.0, min(0.003 * tick, 1.0))))
+    pulls = []
+    for tick in range(150):
+        rig.tick(target(moved(0.0, 0.0, 0.0, max(1.0 - 0.014 * tick, -0.4))))
+        pulls.append(rig.reading.interaction_nm[3])
+        if rig.now is DriveState.HOLD:
+            break
+    caught = [nm > LIMITS[3].resistance_nm for nm in pulls]
+    assert len(caught) - caught.index(True) == 3
+    assert "The elbow resists" in rig.state.gate.reason
+    rig.run(0.1, target())
+    assert rig.reading.interaction_nm[3] < LIMITS[3].resistance_nm
 
 
 def test_sr7_an_arm_that_waits_does_not_sink() -> None:
