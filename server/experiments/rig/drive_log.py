@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from pathlib import Path
 from typing import Final
 
@@ -11,6 +12,10 @@ from server.station.exo.driver import DriveMode, Joints
 
 STILL_RAD_S: Final = 0.05
 """Three degrees a second: slower than this is standing, with the measurement's own noise."""
+
+STILL_RAD: Final = 0.005
+"""And this near to where it ends: a drive that is spoken to anew settles by less (a quarter of a degree)."""
+LATELY_S: Final = 0.02
 
 
 class Note(msgspec.Struct, frozen=True):
@@ -68,6 +73,12 @@ class DriveLog:
         return notes[begin:]
 
 
+def follows(log: DriveLog, faster_than_rad_s: float) -> bool:
+    """Whether the arm follows now, and moves."""
+    lately = log.since(time.monotonic() - LATELY_S)
+    return bool(lately) and not lately[-1].reason and lately[-1].speed_rad_s > faster_than_rad_s
+
+
 def commands(notes: list[Note]) -> list[Note]:
     """The lines that say that a command came."""
     return [note for note in notes if note.is_command]
@@ -82,9 +93,14 @@ def told_after_s(notes: list[Note], since_s: float, words: str = "") -> float | 
 
 
 def still_after_s(notes: list[Note], since_s: float) -> float | None:
-    """From a moment to the one after which the arm was never measured moving; None = it still moves at the end."""
+    """From a moment to the one after which the arm stands where it ends; None = it still moves at the end."""
     later = [note for note in notes if note.t_s >= since_s]
-    moving = [note.t_s for note in later if note.speed_rad_s > STILL_RAD_S]
     if not later or later[-1].speed_rad_s > STILL_RAD_S:
         return None
+    ends = later[-1].angle_rad
+    moving = [note.t_s for note in later if note.speed_rad_s > STILL_RAD_S and _apart_rad(note, ends) > STILL_RAD]
     return max(moving, default=since_s) - since_s
+
+
+def _apart_rad(note: Note, angle_rad: Joints) -> float:
+    return max(abs(here - there) for here, there in zip(note.angle_rad, angle_rad, strict=True))

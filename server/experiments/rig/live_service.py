@@ -7,24 +7,25 @@ import os
 import signal
 import sys
 import time
-from collections.abc import AsyncIterator
-from contextlib import AsyncExitStack, asynccontextmanager
+from collections.abc import AsyncIterator, Callable
+from contextlib import AsyncExitStack, asynccontextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
 import httpx
 import msgspec
 import psutil
-from websockets.asyncio.client import ClientConnection, connect
+from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed
 
 from fusion.errors import MachineError
 from server.api.live import Screen
 from server.experiments.rig.drive_link import ADDRESS
+from server.experiments.rig.drive_log import follows, told_after_s
 from server.experiments.rig.scene import DriveProcess, running_drive
 from server.experiments.rig.station_process import INSIDE_FILE
-from server.messages import DriveState
+from server.messages import DriveState, JointLimits
 
 PAGE: Final = "therapist"
 SERVICE: Final = ("-m", "server.experiments.rig.service_process")
@@ -46,8 +47,8 @@ class ShortTick(msgspec.Struct, frozen=True):
     t_s: float
     state: DriveState
     reason: str
-    may_enable: bool
     blockers: tuple[str, ...]
+    limits: tuple[JointLimits, ...]
 
 
 class ShortMessage(msgspec.Struct, frozen=True):
@@ -73,10 +74,12 @@ class LiveService:
     data: Path
     drive: DriveProcess
     page: httpx.AsyncClient
+    patient: int = 0
     session: int = 0
     loop_port: int = 0
     """Where the loop in a thread of the service hears sensors, if there is one."""
     ticks: list[ShortTick] = field(default_factory=list)
+    _watching: asyncio.Task[None] | None = None
 
     @property
     def cookie(self) -> str:
@@ -95,10 +98,32 @@ class LiveService:
                 return child
         raise MachineError("the service has no station")
 
-    async def control(self, action: str) -> bool:
+    async def open_session(self) -> None:
+        """Open a session for the demonstration's patient."""
+        form = {"patient_id": self.patient, "confirmed_affected_side": "left"}
+        opened = await self.page.post("/api/sessions", json=form)
+        self.session = opened.raise_for_status().json()["id"]
+
+    async def end_session(self) -> None:
+        """End the open session."""
+        ended = await self.page.post(f"/api/sessions/{self.session}/end", json={})
+        ended.raise_for_status()
+
+    async def heard_again(self) -> None:
+        """Wait for a station that has been started again."""
+        heard = len(self.ticks)
+        await until(lambda: len(self.ticks) > heard + 10, START_WITHIN_S)
+
+    async def control(self, action: str, page: httpx.AsyncClient | None = None) -> bool:
         """Ask as the buttons do; whether it was granted."""
-        answer = await self.page.post(f"/api/sessions/{self.session}/control", json={"action": action})
+        asked = page or self.page
+        answer = await asked.post(f"/api/sessions/{self.session}/control", json={"action": action})
         return answer.status_code == httpx.codes.OK
+
+    def another_page(self) -> httpx.AsyncClient:
+        """A page of the same person that has no connection yet."""
+        headers = {"Mirrorlimb-Client": "another", "Cookie": self.cookie}
+        return httpx.AsyncClient(base_url=self.url, timeout=20, trust_env=False, headers=headers)
 
     async def engaged(self) -> None:
         """Bring the arm to follow, as often as a busy machine makes that necessary.
@@ -116,8 +141,23 @@ class LiveService:
             await asyncio.sleep(0.02)
         raise MachineError(f"the arm does not follow: {self.ticks[-1].state} {self.ticks[-1].blockers}")
 
-    async def moving(self) -> None:
-        """Wait until the arm follows and moves.
+    @property
+    def limits(self) -> tuple[JointLimits, ...]:
+        """Of the patient."""
+        return self.ticks[-1].limits
+
+    def heard(self) -> tuple[DriveState | None, str]:
+        """What the page shows; where the service or the page is gone, the reason that came with the drive's command."""
+        if self.process.returncode is not None or self._watching is None or self._watching.done():
+            return None, self.drive.log.notes()[-1].reason
+        return self.ticks[-1].state, self.ticks[-1].reason
+
+    def decided_after_s(self, since_s: float) -> float | None:
+        """From a moment to the first command that does not follow any more."""
+        return told_after_s(self.drive.log.since(since_s), since_s)
+
+    async def mirroring(self) -> None:
+        """Wait until the arm follows and moves, as often as a busy machine makes that necessary.
 
         Raises:
             MachineError: it does not come to that.
@@ -125,15 +165,10 @@ class LiveService:
         ends_s = time.monotonic() + ENGAGED_WITHIN_S
         while time.monotonic() < ends_s:
             await self.engaged()
-            notes = self.drive.log.since(time.monotonic() - 0.02)
-            if any(note.speed_rad_s > MOVING_RAD_S for note in notes):
+            if follows(self.drive.log, MOVING_RAD_S):
                 return
             await asyncio.sleep(0.01)
         raise MachineError("the arm does not move")
-
-    def kill(self) -> None:
-        """`kill -9`."""
-        self.process.kill()
 
     def freeze(self) -> None:
         """SIGSTOP."""
@@ -143,14 +178,25 @@ class LiveService:
         """SIGCONT."""
         self.process.send_signal(signal.SIGCONT)
 
-    async def watch(self, socket: ClientConnection) -> None:
-        """What an open page does: read, draw, acknowledge."""
-        try:
-            async for text in socket:
-                self.ticks.append(_message_from(text).tick)
-                await socket.send(acknowledged(self.ticks[-1]))
-        except ConnectionClosed:
-            return
+    async def open_page(self) -> None:
+        """Follow the live stream, as an open page does, until it is closed."""
+        shown = len(self.ticks)
+        self._watching = asyncio.create_task(self._watch())
+        await until(lambda: len(self.ticks) > shown)
+
+    async def close_page(self) -> None:
+        """Close the page."""
+        if self._watching is not None:
+            self._watching.cancel()
+            await asyncio.gather(self._watching, return_exceptions=True)
+
+    async def _watch(self) -> None:
+        address = f"{self.url.replace('http', 'ws')}/api/stream?client={PAGE}"
+        async with connect(address, additional_headers={"Cookie": self.cookie}, proxy=None) as socket:
+            with suppress(ConnectionClosed):
+                async for text in socket:
+                    self.ticks.append(_message_from(text).tick)
+                    await socket.send(acknowledged(self.ticks[-1]))
 
 
 @asynccontextmanager
@@ -172,17 +218,11 @@ async def live_service(data: Path, loop_drive: DriveProcess | None = None) -> As
         await stack.enter_async_context(page)
         service = LiveService(process, url, data, drive, page, loop_port=loop_port)
         patient = (await page.post("/api/demo")).raise_for_status().json()["patient"]
-        stack.push_async_callback(_cancelled, asyncio.create_task(_watched(service)))
-        await _until(lambda: service.ticks)
-        form = {"patient_id": patient["id"], "confirmed_affected_side": "left"}
-        service.session = (await page.post("/api/sessions", json=form)).raise_for_status().json()["id"]
+        stack.push_async_callback(service.close_page)
+        await service.open_page()
+        service.patient = patient["id"]
+        await service.open_session()
         yield service
-
-
-async def _watched(service: LiveService) -> None:
-    address = f"{service.url.replace('http', 'ws')}/api/stream?client={PAGE}"
-    async with connect(address, additional_headers={"Cookie": service.cookie}, proxy=None) as socket:
-        await service.watch(socket)
 
 
 async def _started(data: Path, drive: DriveProcess, loop_drive: DriveProcess | None) -> asyncio.subprocess.Process:
@@ -207,12 +247,12 @@ async def _ended(process: asyncio.subprocess.Process) -> None:
         await asyncio.wait_for(process.wait(), 20)
 
 
-async def _cancelled(task: asyncio.Task[None]) -> None:
-    task.cancel()
-    await asyncio.gather(task, return_exceptions=True)
+async def until(right: Callable[[], bool], within_s: float = 20.0) -> None:
+    """Wait until something is so.
 
-
-async def _until(right: Any, within_s: float = 20.0) -> None:
+    Raises:
+        TimeoutError: it did not become so.
+    """
     async with asyncio.timeout(within_s):
         while not right():
             await asyncio.sleep(0.01)

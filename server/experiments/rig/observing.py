@@ -8,9 +8,8 @@ from dataclasses import dataclass
 from typing import Final
 
 from server.experiments.rig.drive_log import Note, commands, still_after_s, told_after_s
-from server.experiments.rig.faults import Fault
-from server.experiments.rig.scene import Scene
-from server.messages import DriveState, JointLimits, StateChanged
+from server.experiments.rig.fault import Fault, Where
+from server.messages import DriveState, JointLimits
 
 SPEED_TOLERANCE: Final = 1.5
 """As the safety gate judges measured speed."""
@@ -20,7 +19,7 @@ SPEED_TOLERANCE: Final = 1.5
 class Observed:
     """What one fault did."""
 
-    fault: Fault
+    fault: str
     state: DriveState | None
     """The station's at the end; None = it is gone."""
     reason: str
@@ -37,46 +36,23 @@ class Observed:
     speed: float
     """Largest measured speed, as a share of what is allowed."""
 
-    @property
-    def trouble(self) -> str:
-        """What was not as it must be; "" = safe."""
-        fault = self.fault
-        checks = (
-            (self.outside_rad > 0.0, f"{self.outside_rad:.3f} rad outside the limits"),
-            (self.speed > SPEED_TOLERANCE, f"{self.speed:.2f} times the allowed speed"),
-            (not _is_among(self.state, fault), f"the state is {self.state}: {self.reason}"),
-            (not fault.goes_on and not any(words in self.reason for words in fault.words), f"it says '{self.reason}'"),
-            (_is_late(self.decided_s, fault.decided_within_s), f"decided after {self.decided_s}"),
-            (_is_late(self.still_s, fault.still_within_s), f"still after {self.still_s}"),
-        )
-        return "; ".join(words for is_so, words in checks if is_so)
 
-
-def _is_among(state: DriveState | None, fault: Fault) -> bool:
-    return state in fault.safe if fault.safe else state is None
-
-
-def _is_late(found_s: float | None, within_s: float | None) -> bool:
-    return within_s is not None and (found_s is None or found_s > within_s)
-
-
-async def observed(scene: Scene, fault: Fault) -> Observed:
+async def observed(where: Where, fault: Fault[Where]) -> Observed:
     """Put the fault in while the arm moves, watch, and take it out again."""
-    await scene.mirroring()
-    since_s = time.monotonic()
-    async with fault.put_in(scene):
+    await where.mirroring()
+    since_s, limits = time.monotonic(), where.limits
+    async with fault.put_in(where):
         await asyncio.sleep(fault.watched_s)
-        state, reason = _state(scene)
-        notes = scene.drive.log.since(since_s)
+        state, reason = where.heard()
+        notes = where.drive.log.since(since_s)
     if fault.heard_after_s:
         await asyncio.sleep(fault.heard_after_s)
-        state, reason = _state(scene)
-    limits = scene.station.config.device
+        state, reason = where.heard()
     return Observed(
-        fault,
+        fault.name,
         state,
         reason,
-        _decided_after_s(scene, since_s),
+        where.decided_after_s(since_s),
         told_after_s(notes, since_s),
         still_after_s(notes, since_s),
         len(commands(notes)),
@@ -85,15 +61,25 @@ async def observed(scene: Scene, fault: Fault) -> Observed:
     )
 
 
-def _decided_after_s(scene: Scene, since_s: float) -> float | None:
-    changes = (event.t_s for event in scene.station.events if isinstance(event, StateChanged))
-    return next((t_s - since_s for t_s in changes if t_s >= since_s), None)
+def trouble(found: Observed, fault: Fault[Where]) -> str:
+    """What was not as it must be; "" = safe and in time."""
+    checks = (
+        (found.outside_rad > 0.0, f"{found.outside_rad:.3f} rad outside the limits"),
+        (found.speed > SPEED_TOLERANCE, f"{found.speed:.2f} times the allowed speed"),
+        (not _is_among(found.state, fault.safe), f"the state is {found.state}: {found.reason}"),
+        (not fault.goes_on and not any(words in found.reason for words in fault.words), f"it says '{found.reason}'"),
+        (_is_late(found.decided_s, fault.decided_within_s), f"decided after {found.decided_s}"),
+        (_is_late(found.still_s, fault.still_within_s), f"still after {found.still_s}"),
+    )
+    return "; ".join(words for is_so, words in checks if is_so)
 
 
-def _state(scene: Scene) -> tuple[DriveState | None, str]:
-    if scene.station.process.returncode is not None:
-        return None, ""
-    return scene.station.last.state, scene.station.last.reason
+def _is_among(state: DriveState | None, safe: frozenset[DriveState]) -> bool:
+    return state in safe if safe else state is None
+
+
+def _is_late(found_s: float | None, within_s: float | None) -> bool:
+    return within_s is not None and (found_s is None or found_s > within_s)
 
 
 def _outside_rad(note: Note, limits: tuple[JointLimits, ...]) -> float:

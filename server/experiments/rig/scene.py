@@ -15,11 +15,11 @@ from typing import Final
 
 from fusion.errors import MachineError
 from server.experiments.rig.drive_link import ADDRESS
-from server.experiments.rig.drive_log import DriveLog
+from server.experiments.rig.drive_log import DriveLog, follows
 from server.experiments.rig.live_station import LiveStation
 from server.experiments.rig.patient import LivePatient
 from server.experiments.rig.station_process import STEP_FILE, SteppedClock
-from server.messages import DriveState, Enable, Reset, Resume, Wish
+from server.messages import DriveState, Enable, JointLimits, Reset, Resume, StateChanged, Wish
 
 COMMAND: Final = ("-m", "server.experiments.rig.station_process")
 MOVING_RAD_S: Final = 0.3
@@ -54,11 +54,13 @@ class Scene:
     clock: SteppedClock
     """The station's wall clock."""
 
-    async def mirroring(self) -> float:
-        """Bring the arm to follow the patient, as often as a busy machine makes that necessary.
+    @property
+    def limits(self) -> tuple[JointLimits, ...]:
+        """Of the patient: as wide as the device's."""
+        return self.station.config.device
 
-        Returns:
-            An instant at which it was engaged and moving.
+    async def mirroring(self) -> None:
+        """Bring the arm to follow the patient, as often as a busy machine makes that necessary.
 
         Raises:
             MachineError: it does not come to that.
@@ -67,16 +69,23 @@ class Scene:
         while time.monotonic() < ends_s:
             tick = self.station.last
             if tick.state is DriveState.ENGAGED:
-                if self._is_moving():
-                    return time.monotonic()
+                if follows(self.drive.log, MOVING_RAD_S):
+                    return
             elif way_on := _WAYS_ON.get(tick.state):
                 await self.station.ask(way_on)
             await asyncio.sleep(0.01)
         raise MachineError(f"the arm does not follow: {self.station.last.state} {self.station.last.blockers}")
 
-    def _is_moving(self) -> bool:
-        notes = self.drive.log.since(time.monotonic() - 0.02)
-        return any(note.speed_rad_s > MOVING_RAD_S for note in notes)
+    def heard(self) -> tuple[DriveState | None, str]:
+        """The station's state and reason; None when it is gone."""
+        if self.station.process.returncode is not None:
+            return None, ""
+        return self.station.last.state, self.station.last.reason
+
+    def decided_after_s(self, since_s: float) -> float | None:
+        """From a moment to the station's first change of state, by its own clock."""
+        changes = (event.t_s for event in self.station.events if isinstance(event, StateChanged))
+        return next((t_s - since_s for t_s in changes if t_s >= since_s), None)
 
 
 @asynccontextmanager

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import os
 import signal
 import socket
 import sys
@@ -91,13 +90,10 @@ async def test_sr8_kill_9_loses_at_most_about_the_last_second(tmp_path: Path) ->
     assert killed_s - ticks[-1].t_s < 1.7  # a flush a second, and what a busy machine adds
 
 
-async def test_sr3_a_frozen_service_holds_and_a_terminated_station_finishes_its_recording(tmp_path: Path) -> None:
+async def test_a_terminated_station_finishes_its_recording(tmp_path: Path) -> None:
     path = tmp_path / "session.mcap"
     async with LiveStation(tmp_path) as station:
         await station.ask(station.session(path))
-        station.beats = False
-        silent = await station.tick(lambda tick: any("silent" in words for words in tick.blockers), 5)
-        assert not silent.may_enable
         station.process.terminate()
         assert await asyncio.wait_for(station.process.wait(), 10) == 0
     with path.open("rb") as file:
@@ -135,42 +131,6 @@ async def test_a_broken_start_file_is_named(tmp_path: Path, content: str, named:
     assert code == 2
     assert named in words
     assert "Traceback" not in words
-
-
-async def test_sr8_a_station_whose_service_was_killed_ends_by_itself_and_keeps_the_recording(tmp_path: Path) -> None:
-    code = (
-        "import asyncio, sys\nfrom pathlib import Path\n"
-        "from server.experiments.rig.live_station import LiveStation\n"
-        "async def main():\n"
-        "    data = Path(sys.argv[1])\n"
-        "    async with LiveStation(data) as station:\n"
-        "        await station.ask(station.session(data / 'session.mcap'))\n"
-        "        print(station.process.pid, flush=True)\n"
-        "        await asyncio.sleep(60)\n"
-        "asyncio.run(main())\n"
-    )
-    service = await asyncio.create_subprocess_exec(
-        sys.executable, "-c", code, str(tmp_path), stdout=asyncio.subprocess.PIPE
-    )
-    assert service.stdout is not None
-    station = int(await asyncio.wait_for(service.stdout.readline(), 40))
-    service.kill()
-    await service.wait()
-    async with asyncio.timeout(20):
-        while _lives(station):
-            await asyncio.sleep(0.1)
-    path = tmp_path / "session.mcap"
-    assert path.read_bytes()[-8:] == b"\x89MCAP0\r\n"
-    ticks = _recorded_ticks(path)
-    assert ticks[-1].t_s - ticks[0].t_s > 4.0  # it waited before it ended
-
-
-def _lives(process: int) -> bool:
-    try:
-        os.kill(process, 0)
-    except ProcessLookupError:
-        return False
-    return b"Z" not in Path(f"/proc/{process}/stat").read_bytes().split(b")")[1][:3]
 
 
 def _start(data: Path, ports: dict[str, int]) -> Path:
