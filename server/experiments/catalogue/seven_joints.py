@@ -87,6 +87,7 @@ def _beside(runs: Sequence[Run]) -> tuple[Beside, ...]:
     moved_mm = 1e3 * np.concatenate([_moved_m(one) for one in runs])
     abrupt_mm = 1e3 * max(_abrupt_m(one) for one in runs)
     work_us = 1e6 * drive_work_s(SimulatedDrive(BUILT_IN), WORK_TICKS)
+    taken_nm = np.abs(np.concatenate([one.course.interaction_nm[one.course.following] for one in runs])).max(axis=1)
     resumed = sum(one.course.resumed_by_person for one in runs)
     return (
         Beside("engaged while one sensor is covered", "the arm follows", f"{100 * engaged:.0f} %", engaged == 1.0),
@@ -102,11 +103,16 @@ def _beside(runs: Sequence[Run]) -> tuple[Beside, ...]:
             max(behind_ms) <= GOAL_MS,
         ),
         Beside("simulated drive's work per tick", f"below {WORK_US:.0f} µs", f"{work_us:.0f} µs", work_us < WORK_US),
+        Beside("passive arm's own torque, as the drive tells it, p99 / most", NOT_GIVEN, _passive(taken_nm)),
     )
 
 
 def _two(values: Floats) -> str:
     return f"{np.median(values):.0f} / {np.percentile(values, 95):.0f} mm"
+
+
+def _passive(values_nm: Floats) -> str:
+    return f"{np.percentile(values_nm, 99):.1f} / {values_nm.max():.1f} N m"
 
 
 def _engaged(runs: Sequence[Run], phase: str) -> float:

@@ -51,6 +51,7 @@ class Course:
     measured_rad: Floats  # (T, 4) by the motors
     arm_rad: Floats  # (T, 4) of the arm in the exoskeleton
     arm_m: Floats  # (T, 3) where its hand is
+    interaction_nm: Floats  # (T, 4) what the drive takes for the arm's own doing
     resumed_by_person: int
     """How often a person had to say that it may go on."""
 
@@ -201,14 +202,24 @@ class _Play:
                 tick.exo.angle_rad,
                 self._drive.scene.arm_rad(),
                 self._drive.scene.hand_m(),
+                tick.exo.interaction_nm,
             )
         )
 
     def course(self, truth_rad: Floats, truth_m: Floats) -> Course:
-        t_s, following, target, commanded, measured, arm, hand = (
-            np.array(column) for column in zip(*self._rows, strict=True)
-        )
-        states = tuple(self.states)
+        columns = [np.array(column) for column in zip(*self._rows, strict=True)]
+        t_s, following, target, commanded, measured, arm, hand, interaction = columns
         return Course(
-            t_s, states, following, truth_rad, truth_m, target, commanded, measured, arm, hand, self.resumed - 1
+            t_s=t_s,
+            state=tuple(self.states),
+            following=following,
+            truth_rad=truth_rad,
+            truth_m=truth_m,
+            target_rad=target,
+            commanded_rad=commanded,
+            measured_rad=measured,
+            arm_rad=arm,
+            arm_m=hand,
+            interaction_nm=interaction,
+            resumed_by_person=self.resumed - 1,
         )
