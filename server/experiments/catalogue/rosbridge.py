@@ -213,4 +213,5 @@ EXPERIMENT = Experiment(
     "random speeds that cease without a word, then a robot that goes silent, repeats itself, or is cut off.",
     run,
     order=60,
+    only_by_name=True,
 )

@@ -217,12 +217,3 @@ def test_sr10_a_resting_joint_that_stands_elsewhere_is_not_moved_but_named(peer)
 def test_what_the_robots_side_refuses_is_a_fault_in_its_words(peer, drive) -> None:
     peer.obey("complain type mismatch on the topic")
     assert "type mismatch" in _until(drive, lambda reading: bool(reading.fault)).fault
-
-
-def test_sr8_a_link_whose_thread_fails_is_a_fault(peer, drive, caplog) -> None:
-    def fail(_: object) -> None:
-        raise ValueError("a slip of ours")
-
-    drive._link._on_message = fail
-    assert "fault of its own" in _until(drive, lambda reading: bool(reading.fault)).fault
-    assert "a slip of ours" in caplog.text
