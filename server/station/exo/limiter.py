@@ -8,17 +8,20 @@ the tick before, so by induction no limit is ever broken (docs/decisions/jerk-li
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import copysign, sqrt
 
 from server.station.exo.brake import Brake, Motion
 
 __all__ = ["Box", "Motion", "to_rest", "towards"]
-APPROACH_1_S, SPEED_UP_1_S, FADE_1_S = 10.0, 30.0, 90.0
-"""Gains from an error to a velocity, from that to an acceleration, from that to a jerk: three equal poles at 30 1/s,
-which do not overshoot and lag 12 mrad behind a reach of peak 1.5 rad/s."""
+APPROACH_1_S, SPEED_UP_1_S, FADE_1_S = 8.0, 40.0, 90.0
+"""Gains from an error to a velocity, from that to an acceleration, from that to a jerk. The goal's own velocity is
+followed at once and its angle gently: more than that answers a noisy goal with the full acceleration, to and fro.
+"""
 PLANNED = 0.7
 """Share of acceleration and jerk that the approach plans to brake with."""
+TOP = 0.98
+"""Share of the velocity limit that is wished for; the guard at the limit itself would be felt as a rattle."""
 HALVINGS = 4
 """Tries between the brake's step and the wished one."""
 
@@ -49,10 +52,12 @@ def towards(motion: Motion, goal_rad: float, goal_rad_s: float, box: Box, speed:
         dt_s: length of the tick.
     """
     wished = _stepped(motion, _jerk(motion, goal_rad, goal_rad_s, box, speed, dt_s), dt_s)
-    if _is_safe(wished, box, box.low_rad, box.high_rad):
+    room = _Room(box, box.low_rad, box.high_rad, motion.angle_rad, box.velocity_rad_s * dt_s)
+    if room.holds(wished):
         return wished
     brake = Brake.of(motion, box.acceleration_rad_s2, box.jerk_rad_s3)
-    return _furthest(brake.after(dt_s), wished, box, min(box.low_rad, brake.low_rad), max(box.high_rad, brake.high_rad))
+    low_rad, high_rad = min(box.low_rad, brake.low_rad), max(box.high_rad, brake.high_rad)
+    return _furthest(brake.after(dt_s), wished, replace(room, low_rad=low_rad, high_rad=high_rad))
 
 
 def to_rest(motion: Motion, box: Box, dt_s: float) -> Motion:
@@ -66,7 +71,7 @@ def _jerk(motion: Motion, goal_rad: float, goal_rad_s: float, box: Box, speed: f
     lead_rad_s = speed * goal_rad_s if goal == goal_rad else 0.0
     error = goal - motion.angle_rad
     approach = min(APPROACH_1_S * abs(error), _stoppable(abs(error), box))
-    velocity = _within(copysign(approach, error) + lead_rad_s, speed * box.velocity_rad_s)
+    velocity = _within(copysign(approach, error) + lead_rad_s, TOP * speed * box.velocity_rad_s)
     acceleration = _within(SPEED_UP_1_S * (velocity - motion.velocity_rad_s), box.acceleration_rad_s2)
     gain = min(FADE_1_S, 1.0 / dt_s)
     return _within(gain * (acceleration - motion.acceleration_rad_s2), box.jerk_rad_s3)
@@ -89,17 +94,30 @@ def _stepped(motion: Motion, jerk_rad_s3: float, dt_s: float) -> Motion:
     )
 
 
-def _is_safe(motion: Motion, box: Box, low_rad: float, high_rad: float) -> bool:
-    """Whether from here the brake breaks no limit; what is not a number is not safe."""
-    v, a = motion.velocity_rad_s, motion.acceleration_rad_s2
-    peak_rad_s = max(abs(v), abs(v + a * abs(a) / (2 * box.jerk_rad_s3)))
-    if not (abs(a) <= box.acceleration_rad_s2 and peak_rad_s <= box.velocity_rad_s):
-        return False
-    brake = Brake.of(motion, box.acceleration_rad_s2, box.jerk_rad_s3)
-    return low_rad <= brake.low_rad and brake.high_rad <= high_rad
+@dataclass(frozen=True, slots=True)
+class _Room:
+    """What the end of a tick must keep."""
+
+    box: Box
+    low_rad: float
+    high_rad: float
+    start_rad: float
+    way_rad: float
+    """Furthest from the start."""
+
+    def holds(self, motion: Motion) -> bool:
+        """Whether from here the brake breaks no limit; what is not a number is not safe."""
+        v, a, box = motion.velocity_rad_s, motion.acceleration_rad_s2, self.box
+        peak_rad_s = max(abs(v), abs(v + a * abs(a) / (2 * box.jerk_rad_s3)))
+        if not (abs(a) <= box.acceleration_rad_s2 and peak_rad_s <= box.velocity_rad_s):
+            return False
+        if not abs(motion.angle_rad - self.start_rad) <= self.way_rad:
+            return False
+        brake = Brake.of(motion, box.acceleration_rad_s2, box.jerk_rad_s3)
+        return self.low_rad <= brake.low_rad and brake.high_rad <= self.high_rad
 
 
-def _furthest(safe: Motion, wished: Motion, box: Box, low_rad: float, high_rad: float) -> Motion:
+def _furthest(safe: Motion, wished: Motion, room: _Room) -> Motion:
     """The state nearest to the wished one, of a few on the way from a safe one, that is safe too.
 
     Motion is linear in its jerk, so what lies between two reachable states is reachable within the same jerk.
@@ -108,7 +126,7 @@ def _furthest(safe: Motion, wished: Motion, box: Box, low_rad: float, high_rad: 
     found = safe
     for _ in range(HALVINGS):
         tried = _between(safe, wished, share + step)
-        if _is_safe(tried, box, low_rad, high_rad):
+        if room.holds(tried):
             found, share = tried, share + step
         step /= 2
     return found

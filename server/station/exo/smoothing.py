@@ -18,8 +18,8 @@ LEAD: Final = 0.25
 """Share of the low-pass's own lag that is led by its velocity."""
 NOISE_RAD_S: Final = 0.4
 """Pace at which noise may move the set-point: the low-pass's natural frequency times the noise's size."""
-QUICKNESS_1_S: Final = (6.0, 25.0)
-"""Least and largest natural frequency: the lag on a steady movement is 2 ζ (1 − LEAD) over it, 50 to 200 ms."""
+QUICKNESS_1_S: Final = (6.0, 30.0)
+"""Least and largest natural frequency: the lag on a steady movement is 2 ζ (1 − LEAD) over it, 40 to 200 ms."""
 SPAN_S: Final = 0.1
 """Noise is what three angles so far apart lack to a straight line; a reach bends by no more than 0.04 rad in it."""
 LARGEST_BEND_RAD: Final = 1.0

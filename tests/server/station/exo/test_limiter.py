@@ -44,6 +44,7 @@ def _held(before: Motion, after: Motion, box: Box, dt_s: float) -> None:
     assert abs(after.acceleration_rad_s2) <= box.acceleration_rad_s2 + SLACK
     assert abs(after.acceleration_rad_s2 - before.acceleration_rad_s2) <= box.jerk_rad_s3 * dt_s + SLACK
     assert abs(after.velocity_rad_s - before.velocity_rad_s) <= box.acceleration_rad_s2 * dt_s + SLACK
+    assert abs(after.angle_rad - before.angle_rad) <= box.velocity_rad_s * dt_s + SLACK
 
 
 @settings(max_examples=250, derandomize=True, deadline=None)
