@@ -40,10 +40,11 @@ def _resists(interaction_nm: float, commanded_rad_s: float, joint: JointLimits) 
 
 def give_way(strained_s: Joints, inputs: SafetyInputs, share: Joints) -> str:
     """Why the drive must give way now, naming the joint; "" = it need not."""
+    held = "held softly" if inputs.device.can_comply else "held"
     for i, joint in enumerate(inputs.limits):
         if strained_s[i] > RESISTED_S:
             nm = inputs.reading.interaction_nm[i]
-            return f"The {joint.joint} resists with {abs(nm):.1f} N m; the arm is held softly."
+            return f"The {joint.joint} resists with {abs(nm):.1f} N m; the arm is {held}."
         if share[i] < 1.0 and abs(inputs.reading.velocity_rad_s[i]) > measured.top_speed_rad_s(joint):
-            return f"The {joint.joint} moves faster than allowed; the arm is held softly."
+            return f"The {joint.joint} moves faster than allowed; the arm is {held}."
     return ""

@@ -99,6 +99,7 @@ def test_sr18_a_drive_that_cannot_comply_holds_where_the_arm_began_to_resist() -
     run(rig, 0.03, at(0, 0, 0, 0.8))
     place = rig.arm.angle_rad[ELBOW]
     assert (rig.now, rig.command.share) == (DriveState.HOLD, (1.0,) * 4)
+    assert rig.state.gate.reason.endswith("N m; the arm is held.")
     run(rig, 2.0, at(0, 0, 0, 0.8))
     assert rig.command.angle_rad[ELBOW] == pytest.approx(place, abs=2e-3)
 
