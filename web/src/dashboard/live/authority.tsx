@@ -17,6 +17,7 @@ interface Props {
 
 export function Authority({ feed, charge, session, account }: Props) {
   const holder = useFromFeed(feed, 4, ({ newest }) => authorityOf(newest)?.account ?? "");
+  const isKnown = useFromFeed(feed, 5, ({ link }) => link === "open");
   const [asking, setAsking] = useState(false);
   // Nothing is left to confirm once the other page is gone.
   const isAsked = asking && charge === "other";
@@ -26,6 +27,7 @@ export function Authority({ feed, charge, session, account }: Props) {
       await takeAuthority(session, confirmed);
       setAsking(false);
     });
+  if (!isKnown) return <div class="authority">{t("authority.unknown")}</div>;
   return (
     <div class="authority" data-testid="authority" data-charge={charge}>
       <Sign charge={charge} />

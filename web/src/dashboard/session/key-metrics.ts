@@ -13,7 +13,6 @@ const FIRST: readonly Wanted[] = [
   { name: "own_work_share" },
   { name: "own_range", joint: "elevation" },
   { name: "sparc" },
-  { name: "active_minutes" },
 ];
 
 /** Those of `metrics` that say most, of the healthy arm: in passive mode the other one shows the drive. */

@@ -38,6 +38,7 @@ export const live = {
   "authority.other-page": "You are in charge from another page. Here you can watch, hold and stop.",
   "authority.gone": "Nobody is in charge: the page of {name} is not connected.",
   "authority.nobody": "Nobody is in charge.",
+  "authority.unknown": "Who is in charge cannot be known now.",
   "authority.take": "Take over",
   "authority.question": "Take over from {name}? A moving arm is held first; then you resume.",
   "authority.confirm": "Yes, take over",

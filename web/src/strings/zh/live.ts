@@ -40,6 +40,7 @@ export const live: Record<keyof typeof english, string> = {
   "authority.other-page": "您正在另一页面控制。在这里可以查看、暂停和停止。",
   "authority.gone": "目前无人控制：{name} 的页面已断开。",
   "authority.nobody": "目前无人控制。",
+  "authority.unknown": "目前无法得知由谁控制。",
   "authority.take": "接管控制",
   "authority.question": "要从 {name} 接管控制吗？运动中的手臂会先保持，再由您继续。",
   "authority.confirm": "是，接管",

@@ -25,19 +25,21 @@ export function Exo({ feed, session, charge }: Props) {
   return (
     <section class="card exo" aria-label={t("exo.title")} data-testid="exo">
       <Help feed={feed} session={session} isMine={charge === "mine"} />
-      <table>
-        <Head />
-        <tbody>
-          {JOINTS.map((joint, index) => (
-            <JointRow
-              key={joint}
-              {...{ joint, index, tick, clamped }}
-              device={station?.device.find((one) => one.joint === joint)}
-              softMarginRad={station?.soft_margin_rad ?? 0}
-            />
-          ))}
-        </tbody>
-      </table>
+      <div class="table-scroll">
+        <table>
+          <Head />
+          <tbody>
+            {JOINTS.map((joint, index) => (
+              <JointRow
+                key={joint}
+                {...{ joint, index, tick, clamped }}
+                device={station?.device.find((one) => one.joint === joint)}
+                softMarginRad={station?.soft_margin_rad ?? 0}
+              />
+            ))}
+          </tbody>
+        </table>
+      </div>
       <Notes words={notesOf(tick, clamped)} />
       <p class="exo-legend">{t("exo.legend")}</p>
     </section>
