@@ -12,6 +12,7 @@ import uvicorn
 
 from server.api.app import create_app
 from server.api.auth import COOKIE, AuthSettings
+from server.api.serve import settle_memory
 from server.config import Config
 
 QUICK = AuthSettings(argon2_time_cost=1, argon2_memory_kib=64)
@@ -54,6 +55,7 @@ def running(data, settings=QUICK, station=STAND_IN, config=None, built=Path("now
     try:
         if not server.started:
             raise app.state.failure
+        settle_memory()
         yield Running(f"http://127.0.0.1:{listener.getsockname()[1]}", app, data)
     finally:
         server.should_exit = True
