@@ -58,12 +58,13 @@ def run(start: StationStart) -> None:
         # Until a session says whose arm is healthy; the demonstration's patient has a healthy right one.
         side = Side.RIGHT if start.demo else Side.LEFT
         perception = Perception(PipelineSettings(side, config.method, config.reference))
-        drive = stack.enter_context(make_drive(config.exoskeleton))
+        device = make_drive(config.exoskeleton)
         pacemaker.settle()
         # No sooner: 0.14 s of garbage collection at this priority held up another station's loop for 0.11 s. And no
-        # later: the threads of the channels and the recorder need it too.
+        # later: the threads of the drive, the channels and the recorder need it too.
         real_time = pacemaker.ask_for_priority()
         log.info("real-time priority %s", "granted" if real_time else "not granted")
+        drive = stack.enter_context(device)
         channels = StationChannels(Path(start.channels))
         stack.callback(channels.close)
         demonstration = Demonstration() if start.demo else None

@@ -14,6 +14,7 @@ from pathlib import Path
 from fusion.errors import MirrorlimbError
 from server.emulated.cia402.serve import open_bus, serve
 from server.exoskeleton_file import read_exoskeleton
+from server.station.pacemaker import ask_for_priority
 
 UNUSABLE = 2
 
@@ -35,6 +36,7 @@ def main() -> int:
     try:
         exoskeleton = read_exoskeleton(options.file)
         with open_bus(exoskeleton.cia402) as bus:
+            ask_for_priority()  # real drives have processors of their own
             sys.stdout.write("listening\n")
             sys.stdout.flush()
             serve(exoskeleton, bus, lambda: not ended and os.getppid() == parent, options.control, options.journal)

@@ -29,7 +29,7 @@ from server.station.exo.cia402.setpoint import SetPoint
 from server.station.exo.cia402.states import State, controlword
 from server.station.exo.cia402.units import Units
 from server.station.exo.cia402.watch import Patience, trouble
-from server.station.exo.driver import WATCHDOG_S, DriveCommand, DriveReading
+from server.station.exo.driver import DriveCommand, DriveReading
 from server.station.exo.joint_map import JointMap
 
 log = logging.getLogger(__name__)
@@ -58,9 +58,8 @@ class Cia402Drive:
         check_load(exoskeleton)
         self._exoskeleton, self._settings = exoskeleton, exoskeleton.cia402
         self._map = JointMap(exoskeleton)
-        self._patience = Patience(
-            SILENT_AFTER_BEATS * self._settings.heartbeat_s, round(WATCHDOG_S / self._settings.period_s)
-        )
+        silent_s = SILENT_AFTER_BEATS * self._settings.heartbeat_s
+        self._patience = Patience(silent_s, round(silent_s / self._settings.period_s))
         self._rests = np.array([joint.follows is Follows.NONE for joint in exoskeleton.joints])  # (n,) held where it is
         led = [joint for joint in exoskeleton.joints if joint.follows is not Follows.NONE]
         self.can_comply = all(joint.name in self._settings.carry_nm for joint in led)

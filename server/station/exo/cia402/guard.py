@@ -47,7 +47,8 @@ class Guard:
         Returns:
             Whether a fault has been found now. From then on the drives are wanted standing, until `reset`.
         """
-        self._asked_s = now_s if self._asked_s is None else self._asked_s
+        if self._asked_s is None:
+            self._begin(now_s)
         if self.fault:
             return False
         self.fault = said or (self._fault_in_operation(now_s) if self.powered else self._power_up(now_s))
@@ -66,6 +67,12 @@ class Guard:
     def stand(self) -> None:
         """The end: quick stop."""
         self.wanted, self.powered = Wanted.STANDING, False
+
+    def _begin(self, now_s: float) -> None:
+        """Silence counts from the first look: what came before may still wait to be read."""
+        self._asked_s = now_s
+        for link in self._links:
+            link.heard_s = max(link.heard_s, now_s)
 
     def _fault_in_operation(self, now_s: float) -> str:
         return self._trouble(now_s) or _first(map(not_enabled, self._waiting()))

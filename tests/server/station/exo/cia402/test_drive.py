@@ -115,7 +115,7 @@ def test_sr1_a_range_that_the_arm_is_outside_of_is_refused_and_nothing_moves(ben
         ("fault elbow 0x7121", "the motor is blocked"),
         ("fault elbow 0x3210", "supply voltage is too high"),
         ("fault elbow 0xFF17", "an error of its maker's own (error FF17h)"),
-        ("silent elbow", "no longer says where it stands"),
+        ("silent elbow", "(node 4)"),
         ("no-heartbeat elbow", "is silent: no heartbeat"),
         ("no-measurement elbow", "no longer says where it stands"),
         ("restart elbow", "restarted"),
