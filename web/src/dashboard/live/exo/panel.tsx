@@ -41,7 +41,6 @@ export function Exo({ feed, session, charge }: Props) {
         </table>
       </div>
       <Notes words={notesOf(tick, clamped)} />
-      <p class="exo-legend">{t("exo.legend")}</p>
     </section>
   );
 }
@@ -68,11 +67,19 @@ function Head() {
   );
 }
 
-/** What the limits changed and why; an empty line keeps the place, so that nothing jumps. */
+/** What the limits changed and why; else how to read the table, at the same place, so that nothing jumps. */
 function Notes({ words }: { words: readonly string[] }) {
+  if (words.length > 0) {
+    const said = words.join(" · ");
+    return (
+      <p class="small exo-note" title={said} data-testid="exo-notes">
+        ⚠ {said}
+      </p>
+    );
+  }
   return (
-    <p class="small exo-note" title={words.join(" · ")} data-testid="exo-notes">
-      {words.length === 0 ? t("exo.unclamped") : `⚠ ${words.join(" · ")}`}
+    <p class="exo-note exo-legend" data-testid="exo-notes">
+      {t("exo.unclamped")} {t("exo.legend")}
     </p>
   );
 }
