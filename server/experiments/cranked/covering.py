@@ -8,10 +8,12 @@ from typing import Final
 
 import numpy as np
 
+from fusion.errors import MachineError
 from fusion.experiments.experiment import Setup
 from fusion.experiments.measures.covered_lens import covered
 from fusion.messages import Flags
 from fusion.recording.recording import Recording, Trouble
+from fusion.virtual_patient.sensor import NoiseLevel
 from fusion.virtual_patient.trial import virtual_recording
 from server.experiments.cranked.following import Course, on_one_clock, played
 from server.experiments.cranked.judged import Span, within
@@ -22,6 +24,8 @@ LEARN_S: Final = 6.0
 SETTLED_S: Final = 4.0
 """Then it is started, and blends in."""
 BOTH_S: Final = 1.5
+TRIED_S: Final = 6.0
+"""The therapist tries for so long to start."""
 ROUNDS: Final = 2
 """A recording with truth lasts some 13 s: it is played over and over, the first time for the station to learn."""
 SEAM_S: Final = 4.0
@@ -75,6 +79,16 @@ def virtual_run(seed: int, setup: Setup, progress: Progress) -> Run:
     course = played(with_trouble, LEARN_S, 1, lambda share: progress(share / 2))
     uncovered = played(recording, LEARN_S, 1, lambda share: progress((1 + share) / 2))
     return Run(f"patient {seed}", course, phases, uncovered)
+
+
+def hinders_start(seed: int, noise: NoiseLevel) -> str:
+    """Why the exoskeleton cannot be started before sensors of this noise, in plain words; "" = it can."""
+    recording = virtual_recording(seed, LEARN_S + TRIED_S, noise=noise, clock_offset_s=0.0, apart_rad=np.pi / 2)
+    try:
+        played(recording, LEARN_S)
+    except MachineError as refused:
+        return refused.what
+    return ""
 
 
 def recorded_run(recording: Recording, progress: Progress) -> Run:

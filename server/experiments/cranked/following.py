@@ -95,7 +95,7 @@ def played(
         if tick % 100 == 0:
             progress(tick / ticks)
     if DriveState.ENGAGED not in play.states:
-        raise MachineError(f"the exoskeleton did not follow: {play.last.blockers or play.last.reason}")
+        raise MachineError(" ".join(play.last.blockers) or play.last.reason)
     return play.course(
         *mirrored_truth(recording.truth, recording.healthy_side, _truth_times(recording, ticks, round_s))
     )
