@@ -1,4 +1,7 @@
-"""What routes may ask for, as named types."""
+"""What routes may ask for, as named types.
+
+What waits for nothing is asynchronous: the others each take a turn in a thread, and a stop would wait for all of them.
+"""
 
 from __future__ import annotations
 
@@ -22,7 +25,7 @@ from server.api.therapy import Therapy
 cookie_scheme = APIKeyCookie(name=COOKIE, auto_error=False, description="Set by logging in; HttpOnly.")
 
 
-def get_service(request: Request) -> Service:
+async def get_service(request: Request) -> Service:
     """Everything that runs behind this application."""
     service: Service = request.app.state.service
     return service
@@ -37,22 +40,22 @@ def get_session(service: ServiceDep) -> Iterator[Session]:
         yield session
 
 
-def get_auth(service: ServiceDep) -> Auth:
+async def get_auth(service: ServiceDep) -> Auth:
     """Who may do what."""
     return service.auth
 
 
-def get_therapy(service: ServiceDep) -> Therapy:
+async def get_therapy(service: ServiceDep) -> Therapy:
     """The session that is going on."""
     return service.therapy
 
 
-def get_figures(service: ServiceDep) -> Figures:
+async def get_figures(service: ServiceDep) -> Figures:
     """What recordings say."""
     return service.figures
 
 
-def get_controls(service: ServiceDep) -> Controls:
+async def get_controls(service: ServiceDep) -> Controls:
     """What people want of the arm."""
     return service.controls
 
@@ -74,7 +77,7 @@ async def get_account(auth: AuthDep, token: TokenDep) -> Account:
 AccountDep = Annotated[Account, Depends(get_account)]
 
 
-def get_therapist(account: AccountDep) -> Account:
+async def get_therapist(account: AccountDep) -> Account:
     """Who is logged in; 403 where that is the patient's screen."""
     if not account.role.may_treat:
         raise ApiError(403, f"{account.name} may not do this", "a therapist's account", "log in with one")
@@ -92,7 +95,7 @@ PageName = Annotated[
 ]
 
 
-def get_client(account: AccountDep, page: PageName = "") -> Client:
+async def get_client(account: AccountDep, page: PageName = "") -> Client:
     """The page that asks."""
     return Client(account.id or 0, account.name, page)
 

@@ -24,6 +24,8 @@ from server.api.socket_gate import admit, watch_log_in
 router = APIRouter()
 
 LEAST_PAUSE_S = 1 / 60
+MESSAGES_PER_S = 1200
+"""To all pages together: with more than twenty, each gets fewer, so that a stop need not wait for them (SR-7)."""
 HIDDEN_PAUSE_S = 0.1
 """For a page that nobody sees, which answers at once without drawing: it is there, and needs no more."""
 REPLACED = 4409
@@ -76,6 +78,7 @@ class _Page:
             await self._socket.send_text(broadcast.text)
             answer = await self._until_drawn(broadcast)
             pause_s = HIDDEN_PAUSE_S if answer.drawn_on is None else LEAST_PAUSE_S
+            pause_s = max(pause_s, self._service.relay.pages.readers / MESSAGES_PER_S)
             await asyncio.sleep(pause_s - (time.monotonic() - sent_s))
 
     async def _until_drawn(self, broadcast: Broadcast) -> Acknowledgement:
