@@ -8,10 +8,10 @@ const BETWEEN_ATTEMPTS_MS = 150;
 const PATIENCE_MS = 1500;
 
 /** Sends it; one that got no answer is sent again at once, a refusal is not. */
-export async function sendUrgent(session: number, action: Urgent): Promise<void> {
+export async function sendUrgent(session: number, action: Urgent, ask: typeof control = control): Promise<void> {
   for (let attempt = 1; ; attempt += 1) {
     try {
-      await control(session, action, PATIENCE_MS);
+      await ask(session, action, PATIENCE_MS);
       return;
     } catch (error) {
       const answered = error instanceof Problem && error.status !== 0;
