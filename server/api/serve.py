@@ -15,6 +15,8 @@ from server.api.data_folder import data_folder, locked
 from server.api.station_link import STATION
 from server.config import Config
 
+SWITCH_S = 0.0005
+"""How long a thread (the database, the 3-D view) may keep the interpreter while the event loop has a stop to carry."""
 CLOSE_WITHIN_S = 3
 """Open streams get so long to end."""
 
@@ -72,6 +74,7 @@ def settle_memory() -> None:
     """
     gc.collect()
     gc.freeze()
+    sys.setswitchinterval(SWITCH_S)
 
 
 def address_of(listener: socket.socket) -> str:

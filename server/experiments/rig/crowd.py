@@ -8,7 +8,7 @@ import sqlite3
 import sys
 import threading
 from collections.abc import Sequence
-from contextlib import closing
+from contextlib import closing, suppress
 from pathlib import Path
 from typing import Final
 
@@ -16,6 +16,7 @@ import httpx
 import msgspec
 import viser
 from websockets.asyncio.client import connect
+from websockets.exceptions import ConnectionClosed, InvalidHandshake
 from websockets.typing import Subprotocol
 
 from server.experiments.rig.live_service import ShortMessage, acknowledged
@@ -55,20 +56,29 @@ class Crowd:
         """Pages that have drawn something."""
 
     async def look(self, page: int) -> None:
-        """A page of the live stream, which draws as fast as it is sent to."""
-        address = f"{self._sockets}/api/stream?client=crowd-{page}"
-        async with connect(address, additional_headers=self._headers, proxy=None) as socket:
-            first = True
-            async for text in socket:
-                self.looking, first = self.looking + first, False
-                await socket.send(acknowledged(_message_from(text).tick))
+        """A page of the live stream, which draws as fast as it is sent to, and is opened again when it is lost."""
+        address, first = f"{self._sockets}/api/stream?client=crowd-{page}", True
+        while True:
+            opening = connect(
+                address, additional_headers=self._headers, ping_interval=None, open_timeout=None, proxy=None
+            )
+            with suppress(ConnectionClosed, OSError, InvalidHandshake):
+                async with opening as socket:
+                    async for text in socket:
+                        self.looking, first = self.looking + first, False
+                        await socket.send(acknowledged(_message_from(text).tick))
 
     async def look_in_3d(self) -> None:
         """A page with the 3-D view open."""
         viser_speech = [Subprotocol(f"viser-v{viser.__version__}")]
         address = f"{self._sockets}/view3d"
         opening = connect(
-            address, additional_headers=self._headers, subprotocols=viser_speech, max_size=None, proxy=None
+            address,
+            additional_headers=self._headers,
+            subprotocols=viser_speech,
+            max_size=None,
+            ping_interval=None,
+            proxy=None,
         )
         async with opening as socket:
             await socket.send(_CAMERA)
@@ -85,8 +95,9 @@ class Crowd:
             number = 0
             while True:
                 number += 1
-                await client.post("/api/patients", json={"name": f"C-{number}", "healthy_side": "left"})
-                await client.get("/api/patients/1/sessions")
+                with suppress(httpx.HTTPError):  # the database may be too busy for too long
+                    await client.post("/api/patients", json={"name": f"C-{number}", "healthy_side": "left"})
+                    await client.get("/api/patients/1/sessions")
 
 
 def write_past_the_service(path: Path) -> None:
