@@ -37,7 +37,7 @@ class Path:
             return self.angle_rad[-1], np.zeros_like(self.angle_rad[-1])
         i = max(int(np.searchsorted(self.t_s, t_s, side="right")) - 1, 0)
         length = self.t_s[i + 1] - self.t_s[i]
-        u = (t_s - self.t_s[i]) / length
+        u = max(t_s - self.t_s[i], 0.0) / length
         a, b, p, q = self.angle_rad[i], self.angle_rad[i + 1], self.velocity_rad_s[i], self.velocity_rad_s[i + 1]
         angle = a + u * (length * p + u * (3 * (b - a) - length * (2 * p + q) + u * (2 * (a - b) + length * (p + q))))
         slope = (6 * u * (1 - u) * (b - a)) / length + p * (1 - u) * (1 - 3 * u) + q * u * (3 * u - 2)
@@ -78,6 +78,7 @@ class EmulatedRobot:
             now_s: now.
         """
         times, wanted, moving = np.asarray(t_s, float), np.asarray(angles, float), np.asarray(speeds, float)
+        self.step(now_s)  # until now it followed what it was told before
         refusal = self._refusal(names, times, wanted, moving)
         if refusal:
             return refusal

@@ -84,7 +84,8 @@ class RosbridgeDrive:
         self._ends = np.where(self._rests[:, None], self._range, inside)
 
     def reset(self) -> None:
-        """Its faults end with their causes; there is nothing to leave."""
+        """What the robot's side said is answered; other faults end with their causes."""
+        self._said = ""
 
     def command(self, command: DriveCommand, now_s: float) -> None:
         """Send the command's trajectory to a robot that is seen, and seen where it is told to be; others brake."""
@@ -100,7 +101,8 @@ class RosbridgeDrive:
             self._map.names, joints, measured, command.mode is DriveMode.FOLLOW, self._settings.following_rad, now_s
         )
         if self._following.joined:
-            self._send(joints, self._map.joints_rad_s(command.velocity_rad_s))
+            speeds = self._map.joints_rad_s(command.velocity_rad_s)
+            self._send(joints + self._following.gap_rad, speeds + self._following.closing_rad_s)
 
     def read(self, now_s: float) -> DriveReading:
         """The newest joint states."""

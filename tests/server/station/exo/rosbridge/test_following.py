@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 from server.station.exo.rosbridge.following import Following
 
@@ -39,3 +40,14 @@ def test_a_robot_that_only_holds_may_be_moved_by_hand() -> None:
 
 def test_it_is_well_again_when_it_is_near_again() -> None:
     assert not _after([HERE] + [(0.0, 0.5)] * 60 + [HERE]).fault
+
+
+def test_sr6_what_lies_between_is_closed_slowly_and_never_jumped() -> None:
+    following, told = Following(), []
+    for tick in range(120):
+        following = following.step(NAMES, HERE, np.array([0.0, 0.92]), False, 0.35, tick * 0.01)
+        told.append(HERE + following.gap_rad)
+    assert told[0] == pytest.approx([0.0, 0.92])
+    assert np.abs(np.diff(told, axis=0)).max() <= 0.1 * 0.01 + 1e-12
+    assert told[-1] == pytest.approx(HERE)
+    assert not following.closing_rad_s.any()
