@@ -22,9 +22,14 @@ export interface Question {
 export function useWho(feed: Feed): Question {
   const isOpen = useFromFeed(feed, 4, (now) => isOpenQuestion(peopleIn(now)));
   const isConfirmed = useFromFeed(feed, 4, (now) => peopleIn(now).some((person) => person.isConfirmed));
-  const [wanted, setWanted] = useState(false);
-  useEffect(() => setWanted(isOpen), [isOpen]);
-  return { isShown: wanted, isConfirmed, ask: () => setWanted(true), close: () => setWanted(false) };
+  const [asked, setAsked] = useState(false);
+  const [dismissed, setDismissed] = useState(false);
+  useEffect(() => setDismissed(false), [isOpen]);
+  const close = () => {
+    setAsked(false);
+    setDismissed(true);
+  };
+  return { isShown: asked || (isOpen && !dismissed), isConfirmed, ask: () => setAsked(true), close };
 }
 
 export function Who({ feed, session, onClose }: { feed: Feed; session: number; onClose: () => void }) {
