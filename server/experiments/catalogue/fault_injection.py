@@ -23,6 +23,7 @@ ENDING_TIMES: Final = 2
 """Faults after which everything must be started again."""
 ATTEMPTS: Final = 3
 """Where the machine stood still meanwhile, once more."""
+FAST_RAD_S: Final = 0.6
 GOES_ON: Final = "goes on within its limits"
 
 
@@ -69,7 +70,9 @@ class Row:
 async def _all(setup: Setup, folder: Path) -> list[Row]:
     rows: list[Row] = []
     times, ending = setup.many(TIMES), setup.many(ENDING_TIMES)
-    await _around("station", station_faults.FAULTS, lambda k: scene(_new(folder, f"scene-{k}")), (times, ending), rows)
+    await _around(
+        "station", station_faults.FAULTS, lambda k: scene(_new(folder, f"scene-{k}"), FAST_RAD_S), (times, ending), rows
+    )
     setup.progress(0.6)
     await _around(
         "service", service_faults.FAULTS, lambda k: live_service(_new(folder, f"service-{k}")), (times, ending), rows
@@ -155,7 +158,7 @@ def _two(times_s: list[float]) -> tuple[Cell, Cell]:
 
 
 _WHY = (
-    "Each fault is put in while some joint moves faster than 0.3 rad/s (0.2 around the service) and the patient goes "
+    "Each fault is put in while some joint moves faster than 0.6 rad/s (0.2 around the service) and the patient goes "
     "on moving; the drive has a process, a clock and a watchdog of its own, so that what it does can be seen when its "
     "station is gone. 'State changed' is the station's own word, or the first command that comes to rest; a drive that "
     "hears nothing acts by itself. 'Stands' is measured: no joint faster than 0.05 rad/s and further than 0.3 degrees "

@@ -23,7 +23,6 @@ from server.messages import DriveState, Enable, JointLimits, Reset, Resume, Stat
 
 COMMAND: Final = ("-m", "server.experiments.rig.station_process")
 MOVING_RAD_S: Final = 0.3
-"""A fault is put in while some joint is measured faster than this."""
 ENGAGED_WITHIN_S: Final = 60.0
 SEED: Final = 3
 _WAYS_ON: Final[dict[DriveState, Callable[[int], Wish]]] = {
@@ -53,6 +52,8 @@ class Scene:
     patient: LivePatient
     clock: SteppedClock
     """The station's wall clock."""
+    moving_rad_s: float = MOVING_RAD_S
+    """A fault is put in while some joint is measured faster than this."""
 
     @property
     def limits(self) -> tuple[JointLimits, ...]:
@@ -69,7 +70,7 @@ class Scene:
         while time.monotonic() < ends_s:
             tick = self.station.last
             if tick.state is DriveState.ENGAGED:
-                if follows(self.drive.log, MOVING_RAD_S):
+                if follows(self.drive.log, self.moving_rad_s):
                     return
             elif way_on := _WAYS_ON.get(tick.state):
                 await self.station.ask(way_on)
@@ -89,7 +90,7 @@ class Scene:
 
 
 @asynccontextmanager
-async def scene(data: Path) -> AsyncIterator[Scene]:
+async def scene(data: Path, moving_rad_s: float = MOVING_RAD_S) -> AsyncIterator[Scene]:
     """A scene with an open session, while the block lasts."""
     async with AsyncExitStack() as stack:
         drive = stack.enter_context(running_drive(data))
@@ -100,7 +101,7 @@ async def scene(data: Path) -> AsyncIterator[Scene]:
         answer = await station.ask(station.session(data / "session.mcap"))
         if not answer.accepted:
             raise MachineError(f"no session can be opened: {answer.reason}")
-        yield Scene(data, drive, station, patient, clock)
+        yield Scene(data, drive, station, patient, clock, moving_rad_s)
 
 
 _drives = count(1)
