@@ -14,7 +14,7 @@ from math import copysign, sqrt
 from server.station.exo.brake import Brake, Motion
 
 __all__ = ["Box", "Motion", "to_rest", "towards"]
-APPROACH_1_S, SPEED_UP_1_S, FADE_1_S = 8.0, 40.0, 90.0
+APPROACH_1_S, SPEED_UP_1_S, FADE_1_S = 6.0, 45.0, 90.0
 """Gains from an error to a velocity, from that to an acceleration, from that to a jerk. The goal's own velocity is
 followed at once and its angle gently: more than that answers a noisy goal with the full acceleration, to and fro.
 """

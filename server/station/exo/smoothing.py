@@ -18,16 +18,16 @@ LEAD: Final = 0.25
 """Share of the low-pass's own lag that is led by its velocity."""
 NOISE_RAD_S: Final = 0.4
 """Pace at which noise may move the set-point: the low-pass's natural frequency times the noise's size."""
-QUICKNESS_1_S: Final = (6.0, 30.0)
-"""Least and largest natural frequency: the lag on a steady movement is 2 ζ (1 − LEAD) over it, 40 to 200 ms."""
+QUICKNESS_1_S: Final = (6.0, 40.0)
+"""Least and largest natural frequency: the lag on a steady movement is 2 ζ (1 − LEAD) over it, 30 to 200 ms."""
 SPAN_S: Final = 0.1
 """Noise is what three angles so far apart lack to a straight line; a reach bends by no more than 0.04 rad in it."""
 LARGEST_BEND_RAD: Final = 1.0
 """A jump counts no more than this."""
 LEARNT_SHARE: Final = 0.05
-"""Of one such look: a memory of two seconds."""
+"""Of one such look: a memory of two seconds. The first looks count more."""
 EXPECTED_RAD: Final = 0.08
-"""Noise of sensors that are not known yet."""
+"""Noise of sensors that are not known yet; counts as two looks."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,12 +38,14 @@ class Noise:
     earlier_rad: float
     """What was seen one span ago and two."""
     variance_rad2: float = EXPECTED_RAD**2
+    looks: int = 2
 
     def after(self, seen_rad: float) -> Noise:
         """One span on."""
         bend = min(abs(seen_rad - 2 * self.before_rad + self.earlier_rad), LARGEST_BEND_RAD)
-        variance = self.variance_rad2 + LEARNT_SHARE * (bend * bend / 6 - self.variance_rad2)
-        return Noise(seen_rad, self.before_rad, variance)
+        share = max(LEARNT_SHARE, 1.0 / (self.looks + 1))
+        variance = self.variance_rad2 + share * (bend * bend / 6 - self.variance_rad2)
+        return Noise(seen_rad, self.before_rad, variance, self.looks + 1)
 
     @property
     def quickness_1_s(self) -> float:
