@@ -24,6 +24,7 @@ from server.station.exo.driver import ZERO
 from server.station.exo.mapping import JointTarget
 from server.station.exo.measured import YIELDING_TOLERANCE_RAD
 
+FREE: Final = Assistance.FREE
 SEQUENCES: Final = 1_000
 FAULTS_EACH: Final = 3
 WARM_UP_S: Final = 1.2
@@ -84,11 +85,12 @@ def sequence(source: Random, tally: Tally) -> None:
     reaching = Reaching.of(source, rig)
     _good(rig, reaching, tally)
     rig.wish(SetAssistance(number=1, mode=source.choice(list(Assistance)), level=source.random()))
+    possible = [fault for fault in (*FAULTS, LEANING) if fault.concerns_free or rig.state.help.mode is not FREE]
     for _ in range(FAULTS_EACH):
         _recover(source, rig, reaching, tally)
         for _ in range(round(WARM_UP_S / TICK_S * source.uniform(0.5, 1.5))):
             _good(rig, reaching, tally)
-        one_fault(source, rig, reaching, source.choice((*FAULTS, LEANING)), tally)
+        one_fault(source, rig, reaching, source.choice(possible), tally)
 
 
 def _recover(source: Random, rig: GateRig, reaching: Reaching, tally: Tally) -> None:
@@ -181,7 +183,8 @@ def _outside_table(tally: Tally) -> Table:
 _WHY = (
     "Where nobody pushes, a joint stays inside its range; where the patient pushes, with up to three quarters of the "
     f"torque that the drive may use, it may lean {YIELDING_TOLERANCE_RAD} rad beyond it before that is a fault. A free "
-    "arm is not led, so faults of the target do not concern it."
+    "arm is not led, so faults of the target do not concern it. A measurement that lies is left out there: from an arm "
+    "that rests it cannot be told, and the drive does not move it."
 )
 EXPERIMENT = Experiment(
     "fault-sequences",

@@ -50,6 +50,8 @@ class Fault:
     """From when it counts to the gate's having left `engaged`."""
     counts: Callable[[Moment], bool] = lambda moment: True
     """Whether there is something to be noticed yet."""
+    concerns_free: bool = True
+    """It can be noticed where the arm is left free."""
 
 
 def _sensors_silent(moment: Moment) -> None:
@@ -151,7 +153,7 @@ FAULTS: Final = (
     Fault("drive reports a fault", _drive_fault, NEXT_TICK_S),
     Fault("measurement no number", _not_a_number, NEXT_TICK_S),
     Fault("measurement stops", _measurement_stops, OLD_S + NEXT_TICK_S),
-    Fault("measurement lies", _measurement_lies, ASTRAY_S + 2 * NEXT_TICK_S, _is_astray),
+    Fault("measurement lies", _measurement_lies, ASTRAY_S + 2 * NEXT_TICK_S, _is_astray, concerns_free=False),
     Fault("drive does not obey", _drive_is_deaf, ASTRAY_S + 2 * NEXT_TICK_S, _is_astray),
     Fault("arm resists", _resists, RESISTED_S + NEXT_TICK_S, _is_led),
     Fault("pain", _pain, NEXT_TICK_S),

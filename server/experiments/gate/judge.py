@@ -1,8 +1,7 @@
 """The judge of a tick: what of the command or of the measured joint is outside its limits (SR-1, SR-2).
 
 A set-point may begin anew where the joint is measured (at engage and resume, and wherever the drive has been yielding);
-any other step obeys velocity, acceleration and jerk. They hold at every tick; between two of them the velocity may pass
-its limit by what the jerk does in half a tick, and the way by jerk · dt³ / 12.
+any other step obeys velocity, acceleration and jerk.
 """
 
 from __future__ import annotations
@@ -78,7 +77,7 @@ def _step(before: Motion, after: Motion, box: Box, ends_rad: tuple[float, float]
     low, high = min(ends_rad[0], before.angle_rad), max(ends_rad[1], before.angle_rad)
     beyond = {
         "range": max(low - after.angle_rad, after.angle_rad - high),
-        "step": abs(after.angle_rad - before.angle_rad) - box.velocity_rad_s * dt_s - box.jerk_rad_s3 * dt_s**3 / 12,
+        "step": abs(after.angle_rad - before.angle_rad) - box.velocity_rad_s * dt_s,
         "velocity": abs(velocity) - box.velocity_rad_s,
         "acceleration": max(
             abs(acceleration) - box.acceleration_rad_s2,
