@@ -22,7 +22,14 @@ from server.station.exo.cia402.faults import words
 from server.station.exo.cia402.following import Following
 from server.station.exo.cia402.guard import Guard
 from server.station.exo.cia402.link import Link, Measured
-from server.station.exo.cia402.opening import SILENT_AFTER_BEATS, expect_station, history, open_node, start_node
+from server.station.exo.cia402.opening import (
+    SILENT_AFTER_BEATS,
+    expect_heartbeat,
+    expect_station,
+    history,
+    open_node,
+    start_node,
+)
 from server.station.exo.cia402.pdo import load
 from server.station.exo.cia402.sdo import Parameters, Place
 from server.station.exo.cia402.setpoint import SetPoint
@@ -81,6 +88,8 @@ class Cia402Drive:
         self._bus.start()
         try:
             self._units = [open_node(node, self._bus, self._settings) for node in self._nodes]
+            for node in self._nodes:
+                start_node(node, self._bus)
             for node, link in zip(self._nodes, self._links, strict=True):
                 self._meet(node, link)
             self._set_point = SetPoint.standing(self._joints_rad())
@@ -107,8 +116,8 @@ class Cia402Drive:
         self._bus.close()
 
     def _meet(self, node: Parameters, link: Link) -> None:
-        """Let its data flow, and remember where it stands until it says so itself."""
-        start_node(node, link, self._bus)
+        """Hear it, and remember where it stands until it says so itself."""
+        expect_heartbeat(node, link, self._settings)
         link.measured = Measured(node.read(objects.STATUSWORD), node.read(objects.POSITION))
         _note(node)
 

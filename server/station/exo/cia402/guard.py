@@ -60,7 +60,7 @@ class Guard:
     def reset(self) -> None:
         """A person asks: out of the fault, and powered where the joints stand (SR-5)."""
         for link in self._links:
-            link.emergency = 0
+            link.forgive()
         self.fault, self.wanted, self.powered, self._asked_s = "", Wanted.RESET, False, None
         self._coming_back = True
 
@@ -69,10 +69,11 @@ class Guard:
         self.wanted, self.powered = Wanted.STANDING, False
 
     def _begin(self, now_s: float) -> None:
-        """Silence counts from the first look: what came before may still wait to be read."""
+        """At the start silence counts from the first look: what came before may still wait to be read."""
         self._asked_s = now_s
-        for link in self._links:
-            link.heard_s = max(link.heard_s, now_s)
+        if not self._coming_back:
+            for link in self._links:
+                link.heard_s = max(link.heard_s, now_s)
 
     def _fault_in_operation(self, now_s: float) -> str:
         return self._trouble(now_s) or _first(map(not_enabled, self._waiting()))
@@ -86,7 +87,7 @@ class Guard:
         if self._asked_s is not None and now_s - self._asked_s > POWER_WITHIN_S:
             return found or _first(map(not_enabled, waiting))
         if self.wanted is Wanted.RESET:
-            left = not any(link.state is State.FAULT for link in self._links)
+            left = all(link.measured.statusword and link.state is not State.FAULT for link in self._links)
             self.wanted = Wanted.ENABLED if left else Wanted.RESET
             return ""
         return found

@@ -13,7 +13,7 @@ from server.station.exo.cia402.bounds import device_bounds, impose, impose_torqu
 from server.station.exo.cia402.bus import Bus
 from server.station.exo.cia402.faults import words
 from server.station.exo.cia402.link import Link
-from server.station.exo.cia402.opening import expect_station, prepare, set_mode, start_node
+from server.station.exo.cia402.opening import expect_heartbeat, expect_station, prepare, set_mode, start_node
 from server.station.exo.cia402.sdo import Parameters, Place
 from server.station.exo.cia402.states import (
     HOMING_ATTAINED,
@@ -72,7 +72,8 @@ class _Homing:
             units = prepare(self._node, self._bus, self._settings)
             impose(self._node, device_bounds(self._joint), units)
             impose_torque(self._node, units)
-            start_node(self._node, self._link, self._bus)
+            start_node(self._node, self._bus)
+            expect_heartbeat(self._node, self._link, self._settings)
             set_mode(self._node, objects.HOMING)
         except BaseException:
             self._bus.close()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from server.exoskeleton import ExoskeletonJoint
 from server.station.exo.cia402.bus import BOOTED, Bus, emergency_id, emergency_of
@@ -73,6 +73,10 @@ class Link:
     def unanswered(self) -> int:
         """SYNCs sent since it last answered one."""
         return self._bus.syncs - self.answered
+
+    def forgive(self) -> None:
+        """Forget its error, and its state until it says it again: a drive that is gone was in operation last."""
+        self.emergency, self.measured = 0, replace(self.measured, statusword=0)
 
     def send(self, control: int, position: int, torque: int) -> None:
         """Give it a set-point for the next SYNC."""

@@ -67,14 +67,18 @@ def prepare(node: Parameters, bus: Bus, settings: Cia402Settings) -> Units:
     return Units.of(node.place.joint, rated_mnm / 1000)
 
 
-def start_node(node: Parameters, link: Link, bus: Bus) -> None:
-    """Let the drive's process data flow, and hear its heartbeat.
+def start_node(node: Parameters, bus: Bus) -> None:
+    """Let the drive's process data flow."""
+    bus.command(NMT_START, node.place.joint.node)
+
+
+def expect_heartbeat(node: Parameters, link: Link, settings: Cia402Settings) -> None:
+    """Wait for the started drive's heartbeat.
 
     Raises:
-        MachineError: no heartbeat came.
+        MachineError: none came.
     """
-    bus.command(NMT_START, node.place.joint.node)
-    if not _within(lambda: link.network_state == OPERATIONAL):
+    if not _within(lambda: link.network_state == OPERATIONAL, WITHIN_S + SILENT_AFTER_BEATS * settings.heartbeat_s):
         raise MachineError(
             f"{node.place} sends no heartbeat",
             f"a heartbeat that says operational, by its {objects.PRODUCER_HEARTBEAT} from cia402.heartbeat_s",
@@ -163,8 +167,8 @@ def _cycle(node: Parameters, period_s: float) -> None:
     node.set(objects.INTERPOLATION_TIME, round(period_s / 10.0**exponent), "cia402.period_s")
 
 
-def _within(true: Callable[[], bool]) -> bool:
-    end_s = time.monotonic() + WITHIN_S
+def _within(true: Callable[[], bool], within_s: float = WITHIN_S) -> bool:
+    end_s = time.monotonic() + within_s
     while not true():
         if time.monotonic() > end_s:
             return False

@@ -19,7 +19,7 @@ from server.exoskeleton import BUILT_IN, Cia402Settings, Exoskeleton
 from server.station.exo.cia402 import Cia402Drive
 from server.station.exo.driver import ZERO, DriveCommand, DriveMode, DriveReading
 
-HEARTBEAT_S = 0.25
+HEARTBEAT_S = 0.5
 """Longer than in life: a busy machine is not a dead one."""
 _channels = count()
 
@@ -122,12 +122,13 @@ def tick(
 
 
 def powered(drive: Cia402Drive, bench: Bench) -> DriveReading:
-    """Ticks until every drive is in operation."""
-    readings = tick(drive, 2.0, until=lambda _: bench.states() == {"operation enabled"})
-    assert bench.states() == {"operation enabled"}, readings[-1].fault
+    """Ticks until every drive is in operation, and the station knows."""
+    enabled = {"operation enabled"}
+    readings = tick(drive, 5.0, until=lambda reading: bench.states() == enabled and not reading.fault)
+    assert bench.states() == enabled, readings[-1].fault
     return tick(drive, 0.03)[-1]
 
 
-def fault_of(drive: Cia402Drive, seconds: float = 2.0) -> str:
+def fault_of(drive: Cia402Drive, seconds: float = 5.0) -> str:
     """Ticks until the drive reports a fault."""
     return tick(drive, seconds, until=lambda reading: bool(reading.fault))[-1].fault

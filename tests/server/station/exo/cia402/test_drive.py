@@ -7,7 +7,7 @@ import time
 from math import cos
 
 import pytest
-from cia402_bench import Bench, emulated, fault_of, follow, four_joints, listening, powered, tick
+from cia402_bench import HEARTBEAT_S, Bench, emulated, fault_of, follow, four_joints, listening, powered, tick
 
 from server.messages import EXO_JOINTS, JointLimits
 from server.station.exo.cia402 import Cia402Drive
@@ -163,7 +163,7 @@ def test_sr5_a_reset_does_not_help_while_the_drive_is_gone(bench: Bench) -> None
         bench.order("silent elbow")
         fault_of(drive)
         drive.reset()
-        readings = tick(drive, 3.0, until=lambda reading: "'elbow'" in reading.fault)
+        readings = tick(drive, 6.0, until=lambda reading: "'elbow'" in reading.fault)
         assert all(reading.fault for reading in readings)
         assert "'elbow'" in readings[-1].fault
 
@@ -172,7 +172,7 @@ def test_sr3_drives_that_hear_no_station_stop_by_themselves_and_hold(bench: Benc
     with Cia402Drive(bench.exoskeleton) as drive:
         start = powered(drive, bench).angle_rad
         tick(drive, 0.8, _swing(start))
-        time.sleep(0.9)  # the loop stands still: twice the heartbeat, and the ramp
+        time.sleep(2 * HEARTBEAT_S + 0.5)  # the loop stands still: twice the heartbeat, and the ramp
         assert bench.states() == {"quick stop active"}
         stood = bench.angles()
         time.sleep(0.2)

@@ -121,7 +121,7 @@ def test_sr1_every_limit_is_in_the_drive_after_the_start(bench: Bench) -> None:
         assert values[objects.MAX_MOTOR_SPEED] == round(2.0 * 100 * 60 / 6.283185307179586)
         assert values[objects.MAX_ACCELERATION] == round(10.0 * counts)
         assert values[objects.MAX_TORQUE] == values[objects.MAX_CURRENT] == 250
-        assert values[objects.CONSUMER_HEARTBEAT] == 127 << 16 | 500
+        assert values[objects.CONSUMER_HEARTBEAT] == 127 << 16 | 1000
         assert (values[objects.ABORT_OPTION], values[objects.QUICK_STOP_OPTION]) == (3, 6)
         assert (values[objects.INTERPOLATION_TIME], values[objects.INTERPOLATION_EXPONENT]) == (10, -3)
 
