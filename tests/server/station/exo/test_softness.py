@@ -11,6 +11,7 @@ from quick_gate import COMPLIANT, ELBOW, HERE, LIMITS, RIGID, STATION, at, engag
 from server.exoskeleton import Follows, StopCategory
 from server.experiments.gate.rig import CONFIG
 from server.messages import Assistance, DriveState, Hold, Stop
+from server.station.exo.measured import YIELDING_TOLERANCE_RAD
 from server.station.exo.softness import SOFT_SHARE, device_of, wall
 
 SOFT_ELBOW = replace(COMPLIANT, soft_stop=(False, False, False, True))
@@ -65,6 +66,7 @@ def test_sr1_the_wall_rises_from_none_at_the_soft_margin_to_all_at_the_end_of_th
     assert elbow_at(high - CONFIG.soft_margin_rad / 2) == pytest.approx(0.5)
     assert [elbow_at(low), elbow_at(high), elbow_at(high + 1.0)] == pytest.approx([1.0] * 3)
     assert elbow_at(high - 0.2, 1.5) > 0.0 == elbow_at(high - 0.2, -1.5)
+    assert [elbow_at(HERE[ELBOW], much * LIMITS[ELBOW].velocity_rad_s) for much in (1.0, -1.0, 1.25)] == [0.0, 0.0, 1.0]
 
 
 def test_sr7_an_arm_that_was_free_is_stopped_where_it_is_and_held_firmly_soon() -> None:
@@ -80,3 +82,11 @@ def test_sr7_an_arm_that_was_free_is_stopped_where_it_is_and_held_firmly_soon() 
     run(rig, 1.0, at(0, 0, 0, 0))
     assert rig.now is DriveState.STOPPED
     assert 0 <= rig.arm.angle_rad[ELBOW] - moving_at < 0.4
+
+
+def test_sr1_sr2_a_free_arm_that_is_pushed_hard_is_braked_before_the_end_of_its_range() -> None:
+    rig = engaged(Assistance.FREE)
+    rig.arm.push_nm = (0.0, 0.0, -0.75 * LIMITS[2].torque_nm, 0.0)
+    run(rig, 2.0)
+    assert rig.arm.angle_rad[2] >= LIMITS[2].min_rad - YIELDING_TOLERANCE_RAD
+    assert rig.now is DriveState.ENGAGED
