@@ -6,6 +6,7 @@ import asyncio
 import tempfile
 from collections.abc import Callable
 from contextlib import AbstractAsyncContextManager
+from importlib.util import find_spec
 from pathlib import Path
 from statistics import median
 from typing import Final
@@ -49,6 +50,7 @@ def run(setup: Setup) -> Outcome:
         (),
         _WHY,
         (setup.seed,),
+        () if find_spec("can") else ("the CAN bus: python-can is not installed (extra 'can')",),
     )
 
 
@@ -73,11 +75,22 @@ async def _all(setup: Setup, folder: Path) -> list[Row]:
     await _around(
         "station", station_faults.FAULTS, lambda k: scene(_new(folder, f"scene-{k}"), FAST_RAD_S), (times, ending), rows
     )
+    setup.progress(0.4)
+    if find_spec("can") is not None:
+        await _around_the_bus(folder, (times, ending), rows)
     setup.progress(0.6)
     await _around(
         "service", service_faults.FAULTS, lambda k: live_service(_new(folder, f"service-{k}")), (times, ending), rows
     )
     return rows
+
+
+async def _around_the_bus(folder: Path, times: tuple[int, int], rows: list[Row]) -> None:
+    # python-can is an optional extra; the other faults work without it.
+    from server.experiments.rig.can_faults import FAULTS
+    from server.experiments.rig.can_scene import can_scene
+
+    await _around("CAN bus", FAULTS, lambda k: can_scene(_new(folder, f"can-{k}"), FAST_RAD_S), times, rows)
 
 
 def _new(folder: Path, name: str) -> Path:
@@ -171,9 +184,10 @@ EXPERIMENT = Experiment(
     Chapter.SAFETY,
     "Single faults in real processes",
     "No paper says. SR-8: any single fault reaches the safe state in its time.",
-    "The real station with a moving patient and a drive in a process of its own, and the real service with its "
-    "station: processes killed and frozen, sensors unplugged, datagrams dropped, doubled, reordered and corrupted, the "
-    "wall clock stepped, the disk full, the database locked, the page in charge closed.",
+    "The real station with a moving patient and a drive in a process of its own, the same with emulated CiA 402 "
+    "drives on a CAN bus between processes, and the real service with its station: processes killed and frozen, "
+    "sensors unplugged, datagrams dropped, doubled, reordered and corrupted, the wall clock stepped, the disk full, the "
+    "database locked, the page in charge closed.",
     run,
     order=22,
     only_by_name=True,

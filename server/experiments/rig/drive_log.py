@@ -61,8 +61,11 @@ class DriveLog:
             whole, _, _ = file.read().rpartition(b"\n")
         if whole:
             self._read_bytes += len(whole) + 1
-            self._notes += map(_note_from, whole.split(b"\n"))
+            self._notes += self._noted(whole.split(b"\n"))
         return self._notes
+
+    def _noted(self, lines: list[bytes]) -> list[Note]:
+        return list(map(_note_from, lines))
 
     def since(self, t_s: float) -> list[Note]:
         """Those not older than `t_s`."""

@@ -46,13 +46,15 @@ async def _wires_bent(scene: Scene, bend: Callable[[int], Wire]) -> AsyncIterato
 
 
 @asynccontextmanager
-async def _station_killed(scene: Scene) -> AsyncIterator[None]:
+async def station_killed(scene: Scene) -> AsyncIterator[None]:
+    """`kill -9` of the station."""
     scene.station.process.kill()
     yield
 
 
 @asynccontextmanager
-async def _station_frozen(scene: Scene) -> AsyncIterator[None]:
+async def station_frozen(scene: Scene) -> AsyncIterator[None]:
+    """SIGSTOP of the station."""
     scene.station.process.send_signal(signal.SIGSTOP)
     try:
         yield
@@ -79,7 +81,8 @@ async def _nobody_in_charge(scene: Scene) -> AsyncIterator[None]:
 
 
 @asynccontextmanager
-async def _drive_frozen(scene: Scene) -> AsyncIterator[None]:
+async def drive_frozen(scene: Scene) -> AsyncIterator[None]:
+    """SIGSTOP of the drive's process."""
     scene.drive.process.send_signal(signal.SIGSTOP)
     try:
         yield
@@ -163,7 +166,7 @@ FAULTS: Final[tuple[Fault[Scene], ...]] = (
     Fault(
         "drive-silent",
         "the drive answers nothing any more",
-        _drive_frozen,
+        drive_frozen,
         frozenset({DriveState.FAULT}),
         WATCHDOG_S + TICK_S + SOON_S,
         words=("drive",),
@@ -171,7 +174,7 @@ FAULTS: Final[tuple[Fault[Scene], ...]] = (
     Fault(
         "station-frozen",
         "the station's process frozen (SIGSTOP)",
-        _station_frozen,
+        station_frozen,
         frozenset({DriveState.HOLD, DriveState.FAULT}),
         still_within_s=WATCHDOG_S + BRAKING_S,
         words=("stood still", "too busy", "not of now"),
@@ -180,7 +183,7 @@ FAULTS: Final[tuple[Fault[Scene], ...]] = (
     Fault(
         "station-killed",
         "the station killed (SIGKILL)",
-        _station_killed,
+        station_killed,
         UNHEARD,
         still_within_s=WATCHDOG_S + BRAKING_S,
         ends=True,

@@ -7,6 +7,7 @@ from collections.abc import AsyncIterator, Awaitable, Callable
 import pytest
 import pytest_asyncio
 
+from server.experiments.rig.can_scene import can_scene
 from server.experiments.rig.fault import Fault, Where
 from server.experiments.rig.live_service import LiveService, live_service
 from server.experiments.rig.observing import Observed, observed, trouble
@@ -20,6 +21,12 @@ Shown = Callable[[Where, tuple[Fault[Where], ...], str], Awaitable[Observed]]
 @pytest_asyncio.fixture(scope="module", loop_scope="module")
 async def a_scene(tmp_path_factory: pytest.TempPathFactory) -> AsyncIterator[Scene]:
     async with scene(tmp_path_factory.mktemp("scene")) as opened:
+        yield opened
+
+
+@pytest_asyncio.fixture(scope="module", loop_scope="module")
+async def a_can_scene(tmp_path_factory: pytest.TempPathFactory) -> AsyncIterator[Scene]:
+    async with can_scene(tmp_path_factory.mktemp("can")) as opened:
         yield opened
 
 
