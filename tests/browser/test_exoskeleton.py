@@ -133,7 +133,7 @@ def pull(therapist: Page, colleague: Page) -> None:
 
 
 def stop_for_pain(therapist: Page) -> None:
-    with therapist.expect_popup() as popup:
+    with therapist.context.expect_page() as popup:
         therapist.get_by_test_id("open-play").click()
     screen = popup.value
     screen.set_viewport_size({"width": 640, "height": 400})  # drawn without a graphics card

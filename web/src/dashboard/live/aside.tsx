@@ -30,7 +30,8 @@ export function Aside({ feed, session, who, onEnd }: Props) {
       <button type="button" onClick={who.ask} aria-expanded={who.isShown} data-testid="ask-who">
         {who.isConfirmed ? `✓ ${t("who.confirmed")}` : t("who.title")}
       </button>
-      <a class="button" href={PLAY_PAGE} target="mirrorlimb-play" data-testid="open-play">
+      {/* no opener: a window that has one shares the dashboard's thread, and drawing would hold up its answers */}
+      <a class="button" href={PLAY_PAGE} target="_blank" rel="noopener" data-testid="open-play">
         {t("live.play")}
       </a>
       <button type="button" onClick={onEnd} data-testid="end-session">
