@@ -186,8 +186,8 @@ EXPERIMENT = Experiment(
     "No paper says. SR-8: any single fault reaches the safe state in its time.",
     "The real station with a moving patient and a drive in a process of its own, the same with emulated CiA 402 "
     "drives on a CAN bus between processes, and the real service with its station: processes killed and frozen, "
-    "sensors unplugged, datagrams dropped, doubled, reordered and corrupted, the wall clock stepped, the disk full, the "
-    "database locked, the page in charge closed.",
+    "sensors unplugged, datagrams dropped, doubled, reordered and corrupted, the wall clock stepped, the disk full, "
+    "the database locked, the page in charge closed.",
     run,
     order=22,
     only_by_name=True,
