@@ -120,8 +120,9 @@ def _left_alone(bench: Bench, random: np.random.Generator) -> float | None:
         bench.stand(0.3)
         return None
     while (now_s := time.monotonic()) - begun_s < 1.0:
-        if np.abs(bench.drive.read(now_s).velocity_rad_s).max() > LEFT * began.max():
-            moved_s = now_s
+        seen = bench.drive.read(now_s)
+        if np.abs(seen.velocity_rad_s).max() > LEFT * began.max():
+            moved_s = max(moved_s, seen.t_s)  # when it was measured, however late that came
         time.sleep(LOOK_S)
     bench.stand(0.3)
     braking = np.array([joint.acceleration_rad_s2 for joint in limits])
@@ -163,15 +164,15 @@ def _beside(
             behind.p50_ms < 1e3 * FELT_S / 4,
         ),
         Beside(
-            f"a robot that hears nothing more stands, beyond its ramp, the slowest of {len(stops)} (SR-3)",
+            f"a robot that hears nothing more stands, beyond its ramp, median and slowest of {len(stops)} (SR-3)",
             f"within {1e3 * WATCHDOG_S:g} ms",
-            f"{1e3 * late_s:.0f} ms",
+            f"{1e3 * float(np.median(stops)):.0f}, {1e3 * late_s:.0f} ms",
             late_s <= WATCHDOG_S,
         ),
         Beside(
-            "silence, repetition or a broken link is a fault, the slowest (SR-8)",
+            "silence, repetition or a broken link is a fault, median and slowest (SR-8)",
             f"within {1e3 * allowed_s:g} ms",
-            f"{1e3 * noticed_s:.0f} ms",
+            f"{1e3 * float(np.median(np.concatenate(list(faults.values())))):.0f}, {1e3 * noticed_s:.0f} ms",
             noticed_s <= allowed_s,
         ),
         Beside(
