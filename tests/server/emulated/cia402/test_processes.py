@@ -17,7 +17,8 @@ from server.exoskeleton_file import read_exoskeleton
 from server.station.exo.cia402 import Cia402Drive
 from server.station.exo.driver import ZERO, DriveCommand, DriveMode
 
-HEARTBEAT_S = 0.1
+HEARTBEAT_S = 0.4
+"""Longer than in life: a busy machine is not a dead one."""
 
 
 @pytest.fixture
@@ -31,7 +32,7 @@ def test_sr3_drives_of_a_station_that_was_killed_stop_by_themselves_inside_their
         time.sleep(1.5)
         killed_s = time.monotonic()
         os.kill(station.pid, signal.SIGKILL)
-    time.sleep(1.0)
+    time.sleep(2.0)
     elbow = drives.lines("elbow")
     assert any(line.velocity_rad_s > 0.2 for line in elbow if line.t_s < killed_s), "it was moving"
     late = [line for line in elbow if line.t_s > killed_s + 2 * HEARTBEAT_S + 0.3]
@@ -46,7 +47,7 @@ def test_sr8_drives_that_were_killed_are_a_fault_of_the_station(drives: Drives) 
         assert said == ""
         drives.process.kill()
         drives.process.wait()
-        assert _fault(drive, 3.0)
+        assert _fault(drive, 6.0)
 
 
 def test_orders_reach_drives_in_another_process(drives: Drives) -> None:
@@ -54,7 +55,7 @@ def test_orders_reach_drives_in_another_process(drives: Drives) -> None:
         drive = stack.enter_context(Cia402Drive(read_exoskeleton(drives.file)))
         assert _fault(drive, 0.5) == ""
         order(drives.control, "fault elbow 0x4310")
-        assert "the motor is too hot" in _fault(drive, 3.0)
+        assert "the motor is too hot" in _fault(drive, 6.0)
 
 
 def _fault(drive: Cia402Drive, seconds: float) -> str:
