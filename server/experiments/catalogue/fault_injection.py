@@ -19,8 +19,8 @@ from server.experiments.rig.live_service import live_service
 from server.experiments.rig.observing import Observed, observed, trouble
 from server.experiments.rig.scene import scene
 
-TIMES: Final = 3
-ENDING_TIMES: Final = 2
+TIMES: Final = 2
+ENDING_TIMES: Final = 1
 """Faults after which everything must be started again."""
 ATTEMPTS: Final = 3
 """Where the machine stood still meanwhile, once more."""
