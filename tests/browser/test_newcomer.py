@@ -65,7 +65,7 @@ def resume(page: Page) -> None:
     """Press it if it can be pressed; a short hold ends by itself and takes its button with it."""
     if page.get_by_test_id("resume").is_enabled():
         with suppress(TimeoutError):
-            page.get_by_test_id("resume").click(timeout=1000)
+            page.get_by_test_id("resume").click(timeout=5000)
 
 
 def play_until_the_score_rises(page: Page, play: Page) -> None:
