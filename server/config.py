@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import isfinite
+from math import isclose, isfinite
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -138,7 +138,7 @@ def read_config(path: Path) -> Config:
         config = msgspec.structs.replace(
             config, station=msgspec.structs.replace(config.station, exoskeleton=exoskeleton)
         )
-    _check_gate(config.station.gate, path)
+    _check_station(config.station, path)
     return config
 
 
@@ -150,7 +150,7 @@ def read_start(path: Path) -> StationStart:
     """
     start = typed(read_content(path, "start file", SEE), StationStart, path)
     check(start.station.exoskeleton, path)
-    _check_gate(start.station.gate, path)
+    _check_station(start.station, path)
     return start
 
 
@@ -169,6 +169,17 @@ def _named_exoskeleton(content: dict[str, Any], path: Path) -> Exoskeleton | Non
     if not isinstance(named, str):
         raise InputError(f"'{path}': the value of 'station.exoskeleton' cannot be used", "the path of a file, as text")
     return read_exoskeleton(path.parent / named)
+
+
+def _check_station(station: StationConfig, path: Path) -> None:
+    _check_gate(station.gate, path)
+    period_s, device = station.exoskeleton.cia402.period_s, station.exoskeleton
+    if device.drive == "cia402" and not isclose(period_s * station.rate_hz, 1.0, rel_tol=1e-6):
+        raise InputError(
+            f"'{path}': the drives of '{device.name}' expect a set-point every {period_s:g} s (cia402.period_s), "
+            f"but the station gives {station.rate_hz} a second (station.rate_hz)",
+            f"cia402.period_s = {1 / station.rate_hz:g}",
+        )
 
 
 def _check_gate(gate: GateConfig, path: Path) -> None:

@@ -68,6 +68,13 @@ def test_an_exoskeleton_file_is_read_beside_the_configuration(tmp_path: Path) ->
     assert config.station.exoskeleton == named
 
 
+def test_sr2_drives_that_expect_another_rate_than_the_stations_are_refused(tmp_path: Path) -> None:
+    example = Path(__file__).parents[3] / "examples" / "exoskeletons" / "cia402-four-joints.toml"
+    file = _file(tmp_path, f"[station]\nexoskeleton = '{example}'\nrate_hz = 50")
+    with pytest.raises(InputError, match=r"period_s = 0\.02"):
+        read_config(file)
+
+
 def test_limits_without_room_are_refused(tmp_path: Path) -> None:
     narrow = msgspec.structs.replace(BUILT_IN.joints[0], max_rad=-1.0)
     station = msgspec.structs.replace(
