@@ -181,7 +181,7 @@ def _outside_table(tally: Tally) -> Table:
 
 
 _WHY = (
-    "Where nobody pushes, a joint stays inside its range; where the patient pushes, with up to three quarters of the "
+    "Where nobody pushes, a joint stays inside its range; where the patient pushes, with up to half of the "
     f"torque that the drive may use, it may lean {YIELDING_TOLERANCE_RAD} rad beyond it before that is a fault. A free "
     "arm is not led, so faults of the target do not concern it. A measurement that lies is left out there: from an arm "
     "that rests it cannot be told, and the drive does not move it."

@@ -12,15 +12,19 @@ from server.experiments.gate.rig import CONFIG, GOOD, TICK_S, GateRig, Scene
 from server.messages import Hold, Pain, Stop
 from server.station.exo.driver import ZERO, DriveReading, Joints
 from server.station.exo.mapping import JointTarget
-from server.station.exo.measured import ASTRAY_RAD, ASTRAY_S, OLD_S
+from server.station.exo.measured import ASTRAY_RAD, OLD_S
 from server.station.exo.resistance import RESISTED_S
 
 NEXT_TICK_S: Final = 1.5 * TICK_S
 """In the tick that meets it, and no later."""
 FRESH_S: Final = 0.033
 """A frame of 30 Hz: so old may the newest evidence be when a sensor goes."""
-STRONGEST: Final = 0.75
-"""Of the torque that the drive may use: who pushes with more than all of it is stopped by the device's own ends."""
+STRONGEST: Final = 0.5
+"""Of the torque that the drive may use: against more, less is left to brake with than has sped the arm up, and who
+pushes with more than all of it is stopped by the device's own ends.
+"""
+NOTICED_S: Final = 0.25
+"""A joint that does not follow faults within this time, a few ticks after `ASTRAY_S`."""
 
 
 @dataclass(slots=True)
@@ -153,8 +157,8 @@ FAULTS: Final = (
     Fault("drive reports a fault", _drive_fault, NEXT_TICK_S),
     Fault("measurement no number", _not_a_number, NEXT_TICK_S),
     Fault("measurement stops", _measurement_stops, OLD_S + NEXT_TICK_S),
-    Fault("measurement lies", _measurement_lies, ASTRAY_S + 2 * NEXT_TICK_S, _is_astray, concerns_free=False),
-    Fault("drive does not obey", _drive_is_deaf, ASTRAY_S + 2 * NEXT_TICK_S, _is_astray),
+    Fault("measurement lies", _measurement_lies, NOTICED_S, _is_astray, concerns_free=False),
+    Fault("drive does not obey", _drive_is_deaf, NOTICED_S, _is_astray),
     Fault("arm resists", _resists, RESISTED_S + NEXT_TICK_S, _is_led),
     Fault("pain", _pain, NEXT_TICK_S),
     Fault("stop", _stop, NEXT_TICK_S),

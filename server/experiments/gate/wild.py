@@ -54,7 +54,7 @@ def _joint_limits(source: Random, outer: JointLimits) -> JointLimits:
         velocity_rad_s=source.uniform(0.3, outer.velocity_rad_s),
         acceleration_rad_s2=source.uniform(2.0, outer.acceleration_rad_s2),
         torque_nm=torque_nm,
-        resistance_nm=source.uniform(0.3, 0.6) * torque_nm,
+        resistance_nm=source.uniform(0.3, 0.45) * torque_nm,
     )
 
 
