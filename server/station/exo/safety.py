@@ -63,9 +63,9 @@ def _as_chosen(state: SafetyState, wanted: Wish) -> SafetyState:
 
 
 def put_in(state: SafetyState, reading: DriveReading, now_s: float) -> SafetyState:
-    """Somebody has put an arm in: what is held from now on is where it lies, not where the last one lay."""
+    """Somebody has put an arm in: what is held from now on is where it lies, not where the last one lay or yielded."""
     lies = measured.sound(reading, state.angle_rad, None, now_s, 0.0).angle_rad
-    return replace(state, motions=tuple(map(Motion, lies)), seen_rad=None)
+    return replace(state, motions=tuple(map(Motion, lies)), seen_rad=None, yielded_at=None)
 
 
 def step(

@@ -7,8 +7,10 @@ from dataclasses import replace
 import pytest
 from quick_gate import ELBOW, HERE, LIMITS, RIGID, at, engaged, refusal, run
 
-from server.experiments.gate.rig import GOOD, GateRig
-from server.messages import Assistance, DriveState, Pain, Resume, Stop
+from server.experiments.gate.plant import QuickArm
+from server.experiments.gate.rig import GOOD, GateRig, opening
+from server.messages import Assistance, CloseSession, DriveState, Pain, Resume, Stop
+from server.station.exo import safety
 from server.station.exo.driver import DriveMode, Joints
 from server.station.exo.softness import SOFT_SHARE
 
@@ -130,3 +132,16 @@ def test_sr7_sr18_a_stop_in_a_compliant_hold_stays_soft_and_does_not_fall() -> N
     run(rig, 10.0)
     assert max(rig.command.share) <= SOFT_SHARE
     assert rig.arm.angle_rad == pytest.approx(HERE, abs=0.05)
+
+
+def test_sr5_sr18_the_next_patients_arm_does_not_move_to_where_the_last_one_gave_way() -> None:
+    rig = engaged()
+    run(rig, 3.0, at(0, 0.5, 0, 0.5))
+    for wish in (Pain(number=3, reason=""), Stop(number=4, reason=""), CloseSession(number=5), opening()):
+        assert rig.wish(wish)
+        run(rig, 0.5)
+    rig.arm = QuickArm((0.5, 0.3, 0.0, 0.5))
+    rig.state = safety.put_in(rig.state, rig.arm.read(rig.t_s), rig.t_s)
+    run(rig, 2.0)
+    assert (rig.now, rig.state.gate.compliant) == (DriveState.STOPPED, True)
+    assert rig.command.angle_rad == pytest.approx((0.5, 0.3, 0.0, 0.5), abs=1e-3)
