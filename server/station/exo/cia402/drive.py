@@ -158,7 +158,8 @@ class Cia402Drive:
             self._set_point = SetPoint.standing(measured)
         else:
             wanted = np.where(self._rests, self._set_point.joints_rad, self._map.joints_rad(command.angle_rad))
-            self._set_point = self._set_point.towards(command.mode, wanted, elapsed_s).yielding(self._soft, measured)
+            joined = self._set_point.towards(command.mode, wanted, measured, elapsed_s)
+            self._set_point = joined.yielding(self._soft, measured)
         self._send([self._limit_nm(*each) for each in zip(self._exoskeleton.joints, share, bound_nm, strict=True)])
 
     def fit(self, limits: tuple[JointLimits, ...]) -> None:

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from fusion.messages import Floats
 from server.station.exo.driver import DriveMode
+from server.station.exo.joining import gap_rad
 
 JOIN_RAD_S = 0.2
 LEAD_RAD = 0.1
@@ -33,11 +34,11 @@ class SetPoint:
         """Stay there until the first FOLLOW."""
         return cls(np.array(joints_rad))
 
-    def towards(self, mode: DriveMode, wanted_rad: Floats, elapsed_s: float) -> SetPoint:
+    def towards(self, mode: DriveMode, wanted_rad: Floats, measured_rad: Floats, elapsed_s: float) -> SetPoint:
         """One tick on."""
         if not np.isfinite(wanted_rad).all() or (self.apart_rad is None and mode is DriveMode.HOLD):
             return self
-        apart = self.joints_rad - wanted_rad if self.apart_rad is None else self.apart_rad
+        apart = self._apart_rad(wanted_rad, measured_rad)
         apart = np.sign(apart) * np.maximum(np.abs(apart) - JOIN_RAD_S * elapsed_s, 0.0)
         return replace(self, joints_rad=wanted_rad + apart, apart_rad=apart)
 
@@ -48,3 +49,8 @@ class SetPoint:
         near = np.clip(self.joints_rad, measured_rad - LEAD_RAD, measured_rad + LEAD_RAD)
         kept = np.where(soft, near, self.joints_rad)
         return SetPoint(kept, self.apart_rad + kept - self.joints_rad)
+
+    def _apart_rad(self, wanted_rad: Floats, measured_rad: Floats) -> Floats:
+        if self.apart_rad is None:
+            return self.joints_rad - wanted_rad
+        return gap_rad(self.joints_rad - self.apart_rad, self.apart_rad, wanted_rad, measured_rad)

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from fusion.messages import Floats
+from server.station.exo.joining import gap_rad
 
 NEAR_RAD = 0.1
 """A robot that was not commanded is taken over only from as near as this."""
@@ -26,6 +27,8 @@ class Following:
     """It was near what it was told, and may be commanded from then on."""
     gap_rad: Floats = field(default_factory=lambda: np.zeros(1))
     """(n,) added to what it is told."""
+    wanted_rad: Floats = field(default_factory=lambda: np.zeros(1))
+    """(n,) what it was told last, without the gap."""
     near_s: float | None = None
     """When it was last as near as it should be."""
     last_s: float = 0.0
@@ -53,15 +56,16 @@ class Following:
         apart = np.abs(wanted - measured)
         worst = int(np.argmax(apart))
         joined = self.joined or bool(apart[worst] <= NEAR_RAD)
-        gap = self._closed(now_s) if self.joined else measured - wanted
-        after = replace(self, joined=joined, gap_rad=gap, last_s=now_s)
+        gap = self._closed(wanted, measured, now_s) if self.joined else measured - wanted
+        after = replace(self, joined=joined, gap_rad=gap, wanted_rad=wanted, last_s=now_s)
         if not moving or self.near_s is None or apart[worst] <= (within_rad if joined else NEAR_RAD):
             return replace(after, near_s=now_s, fault="")
         far = now_s - self.near_s > FAR_FOR_S
         words = f"'{names[worst]}' does not follow: it is {apart[worst]:.2f} rad from where it is told to be."
         return replace(after, fault=words if far else "")
 
-    def _closed(self, now_s: float) -> Floats:
-        left = np.maximum(np.abs(self.gap_rad) - CLOSING_RAD_S * min(now_s - self.last_s, LONGEST_S), 0.0)
-        gap: Floats = np.sign(self.gap_rad) * left
+    def _closed(self, wanted: Floats, measured: Floats, now_s: float) -> Floats:
+        left = gap_rad(self.wanted_rad, self.gap_rad, wanted, measured)
+        less = np.maximum(np.abs(left) - CLOSING_RAD_S * min(now_s - self.last_s, LONGEST_S), 0.0)
+        gap: Floats = np.sign(left) * less
         return gap

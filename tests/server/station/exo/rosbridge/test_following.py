@@ -51,3 +51,15 @@ def test_sr6_what_lies_between_is_closed_slowly_and_never_jumped() -> None:
     assert np.abs(np.diff(told, axis=0)).max() <= 0.1 * 0.01 + 1e-12
     assert told[-1] == pytest.approx(HERE)
     assert not following.closing_rad_s.any()
+
+
+@pytest.mark.parametrize("apart_rad", [0.06, 0.08, 0.09])
+def test_sr5_a_robot_does_not_run_away_from_a_command_that_begins_anew_where_it_stands(apart_rad: float) -> None:
+    following, wanted, robot = Following(), HERE, HERE + np.array([0.0, apart_rad])
+    stood = robot.copy()
+    for tick in range(100):
+        if tick >= 5 and np.abs(robot - wanted).max() > 0.05:
+            wanted = robot  # as the gate does for an arm that waits
+        following = following.step(NAMES, wanted, robot, False, 0.35, tick * 0.01)
+        robot = robot + np.clip(wanted + following.gap_rad - robot, -0.02, 0.02)
+    assert np.abs(robot - stood).max() < 0.05
