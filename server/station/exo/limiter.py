@@ -68,7 +68,7 @@ def to_rest(motion: Motion, box: Box, dt_s: float) -> Motion:
 def _jerk(motion: Motion, goal_rad: float, goal_rad_s: float, box: Box, speed: float, dt_s: float) -> float:
     """The wish: each of velocity, acceleration and jerk in proportion to what lacks, and inside its own limit."""
     goal = min(max(goal_rad, box.low_rad), box.high_rad)
-    lead_rad_s = speed * goal_rad_s if goal == goal_rad else 0.0
+    lead_rad_s = goal_rad_s if goal == goal_rad else 0.0
     error = goal - motion.angle_rad
     approach = min(APPROACH_1_S * abs(error), _stoppable(abs(error), box))
     velocity = _within(copysign(approach, error) + lead_rad_s, TOP * speed * box.velocity_rad_s)
