@@ -354,8 +354,10 @@ def test_sr5_choosing_another_body_holds_until_a_person_resumes() -> None:
 
 def test_sr5_a_stop_wins_over_everything_that_was_wished_before_it_and_read_in_the_same_tick() -> None:
     rig = engaged()
-    rig.mailbox.wanted += [Reset(number=100), Enable(number=101), Stop(number=102, reason="pain")]
+    before = [Hold(number=99, reason="a pause"), Reset(number=100), Enable(number=101)]
+    rig.mailbox.wanted += [*before, Stop(number=102, reason="pain")]
     assert rig.tick().state is DriveState.STOPPED
+    assert rig.told(StateChanged)[-1].before is DriveState.ENGAGED  # no other wish was looked at before it
     rig.mailbox.wanted.append(Reset(number=99))
     assert rig.tick().state is DriveState.STOPPED
     assert "stop" in rig.told(WishAnswer)[-1].reason

@@ -206,3 +206,14 @@ def test_what_one_patient_needed_says_nothing_of_the_next() -> None:
     run(rig, 1.0)
     assert rig.wish(opening(Assistance.ASSISTED, 0.9))
     assert rig.state.help.needed == (0.9,) * 4
+
+
+def test_sr6_an_assisted_arm_that_was_kept_back_is_led_from_where_it_is() -> None:
+    rig = engaged(Assistance.ASSISTED, 0.3)
+    rig.arm.push_nm = (0.0, 0.0, 0.0, -4.0)
+    run(rig, 3.0)
+    away = rig.arm.angle_rad[ELBOW] - HERE[ELBOW]
+    assert away < -0.1
+    assert rig.wish(chosen(Assistance.PASSIVE))
+    run(rig, 0.01)
+    assert rig.command.angle_rad[ELBOW] - HERE[ELBOW] == pytest.approx(away, abs=0.02)

@@ -7,13 +7,18 @@ from math import inf, nan
 
 import numpy as np
 import pytest
-from quick_gate import HERE, RIGID, at, engaged, gate_rig, run
+from quick_gate import HERE, LIMITS, RIGID, at, engaged, gate_rig, run
 
+from server.experiments.gate.plant import QuickArm
 from server.experiments.gate.rig import GOOD
-from server.messages import Assistance, DriveState, Reset
+from server.messages import Assistance, DriveState, Hold, Reset
+from server.station.exo import safety
 from server.station.exo.driver import ZERO, DriveReading
+from server.station.exo.gate import GateState
+from server.station.exo.limiter import Motion
 from server.station.exo.measured import ASTRAY_RAD, sound
 from server.station.exo.safety_state import SafetyState
+from server.station.exo.set_points import as_measured
 
 
 @pytest.mark.parametrize("t_s", [9.8, 10.2, nan, -inf])
@@ -96,3 +101,52 @@ def test_sr1_a_free_arm_may_lean_on_the_end_of_its_range_up_to_the_tolerance(
             scene=replace(GOOD, spoilt=lambda r, to=measured_rad: replace(r, angle_rad=to, velocity_rad_s=ZERO)),
         )
     assert rig.now is state
+
+
+def test_sr2_an_arm_that_is_put_in_somewhere_else_has_not_jumped() -> None:
+    rig = gate_rig()
+    rig.arm = QuickArm(tuple(angle + 0.4 for angle in HERE))
+    rig.state = safety.put_in(rig.state, rig.arm.read(rig.t_s), rig.t_s)
+    run(rig, 0.1)
+    assert rig.now is DriveState.READY
+
+
+def test_sr1_an_arm_that_is_held_and_measured_outside_its_range_is_a_fault() -> None:
+    rig = engaged()
+    assert rig.wish(Hold(number=3, reason=""))
+    run(rig, 0.5)
+    assert rig.now is DriveState.HOLD
+    top_rad = LIMITS[1].max_rad
+    rig.state = replace(rig.state, seen_rad=(HERE[0], top_rad, *HERE[2:]))
+    run(rig, 0.01, scene=replace(GOOD, spoilt=lambda r: replace(r, angle_rad=(HERE[0], top_rad + 0.03, *HERE[2:]))))
+    assert rig.now is DriveState.FAULT
+    assert "outside the patient's range" in rig.state.gate.reason
+
+
+def test_sr2_a_drive_with_a_fault_moves_no_set_point_before_a_session_either() -> None:
+    rig = gate_rig()
+    rig.state = replace(rig.state, gate=GateState())
+    elsewhere = tuple(angle + 0.2 for angle in HERE)
+    run(rig, 0.1, scene=replace(GOOD, spoilt=lambda r: replace(r, angle_rad=elsewhere, fault="The encoder is loose.")))
+    assert rig.now is DriveState.OFF
+    assert rig.command.angle_rad == HERE
+
+
+def test_sr1_a_set_point_that_begins_where_the_arm_moves_leaves_itself_room_to_brake() -> None:
+    rig = gate_rig()
+    top_rad, top_rad_s = rig.boxes[1].high_rad, LIMITS[1].velocity_rad_s
+    place, speed = (HERE[0], top_rad - 0.02, *HERE[2:]), (0.0, top_rad_s, 0.0, 0.0)
+    inputs = replace(rig.inputs, reading=replace(rig.inputs.reading, angle_rad=place, velocity_rad_s=speed))
+    assert as_measured(inputs)[1] == Motion(top_rad - 0.02)
+    back = replace(inputs, reading=replace(inputs.reading, velocity_rad_s=(0.0, -top_rad_s, 0.0, 0.0)))
+    assert as_measured(back)[1].velocity_rad_s == -top_rad_s
+
+
+def test_sr1_a_yielding_arm_that_leans_out_of_its_range_is_held_at_the_ranges_end() -> None:
+    rig = engaged(Assistance.ASSISTED, 0.3, seconds=5.0)
+    end_rad = LIMITS[3].max_rad
+    rig.state = replace(rig.state, seen_rad=(*HERE[:3], end_rad))
+    assert rig.wish(Hold(number=3, reason=""))
+    run(rig, 0.01, scene=replace(GOOD, spoilt=lambda r: replace(r, angle_rad=(*HERE[:3], end_rad + 0.03))))
+    assert rig.now is DriveState.HOLD
+    assert rig.command.angle_rad[3] == end_rad

@@ -164,6 +164,12 @@ def test_sr1_a_patients_range_is_cut_to_the_devices_own() -> None:
     ]
 
 
+def test_sr2_sr18_a_patients_torque_and_resistance_are_cut_to_the_devices_own() -> None:
+    strong = tuple(msgspec.structs.replace(joint, torque_nm=999.0, resistance_nm=999.0) for joint in LIMITS)
+    for joint, device in zip(inside_device(strong, STATION.device), STATION.device, strict=True):
+        assert joint.torque_nm == joint.resistance_nm == device.torque_nm
+
+
 def test_sr1_the_soft_margin_is_kept_for_a_target_outside_the_range_and_said() -> None:
     rig = engaged()
     for step in range(400):
@@ -277,6 +283,29 @@ def test_sr5_a_short_loss_is_resumed_through_a_new_blend_in() -> None:
     rig.run(0.05, target())
     assert rig.now is DriveState.ENGAGED
     assert rig.state.blend < 0.05
+
+
+def test_sr5_a_short_loss_is_not_resumed_before_the_arm_has_come_to_rest() -> None:
+    rig = engaged(target(moved(0.0, 0.8, 0.0, 0.0)), seconds=0.9)
+    rig.tick(None, age_s=0.2)
+    ticks = 0
+    while not rig.state.at_rest:
+        rig.tick(target(rig.command.angle_rad))
+        assert rig.now is DriveState.HOLD
+        ticks += 1
+    assert ticks > 3
+    rig.tick(target(rig.command.angle_rad))
+    assert rig.now is DriveState.ENGAGED
+
+
+def test_sr2_a_late_tick_moves_no_set_point_further_than_two_ticks_may() -> None:
+    rig = engaged(target(moved(0.0, 0.8, 0.0, 0.0)), seconds=0.9)
+    before = rig.state.motions[1]
+    rig.t_s += 0.08
+    rig.tick(target(moved(0.0, 0.8, 0.0, 0.0)))
+    assert rig.now is DriveState.ENGAGED
+    assert 0.0 < rig.state.motions[1].angle_rad - before.angle_rad <= 2 * DT_S * LIMITS[1].velocity_rad_s
+    assert rig.state.motions[1].angle_rad - before.angle_rad < 3 * DT_S * before.velocity_rad_s
 
 
 def test_sr5_a_short_loss_is_not_resumed_where_the_target_has_gone_far() -> None:
