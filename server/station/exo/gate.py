@@ -4,7 +4,8 @@
                     ▲                  └──hold, pain, resistance, lost sensors, silence──▶┘
                     └──reset── stopped, fault (latched)
 
-A hold for pain or resistance is soft, and stays so through a stop or a fault (SR-18).
+A hold for pain or resistance is soft, and stays so through a stop or a fault (SR-18). A stopped arm that hurts or
+resists becomes soft as well and stays stopped: people stop because it hurts.
 Stopped and fault outlive their session: the next one opens in them and takes a reset and a start.
 The one exception is written in SR-5: a hold for lost sensors that ends soon, near the arm, resumes by itself.
 """
@@ -47,6 +48,7 @@ TRANSITIONS: Final[dict[tuple[DriveState, type[Wish]], DriveState]] = {
     (HOLD, Resume): ENGAGED,
     (ENGAGED, Pain): HOLD,
     (HOLD, Pain): HOLD,
+    (STOPPED, Pain): STOPPED,
     **{(state, SetAssistance): state for state in (READY, ENGAGED, HOLD)},
     (STOPPED, Reset): READY,
     (FAULT, Reset): READY,
@@ -146,6 +148,8 @@ def watch(gate: GateState, facts: Facts, config: GateConfig, now_s: float) -> Ga
         return replace(gate, state=FAULT, reason=facts.fault, since_s=now_s, lost=False)
     if facts.give_way and gate.state in (ENGAGED, HOLD) and not gate.compliant:
         return replace(gate, state=HOLD, reason=facts.give_way, since_s=now_s, lost=False, compliant=True)
+    if facts.give_way and gate.state is STOPPED:
+        return replace(gate, compliant=True)
     if gate.state is ENGAGED:
         return _watch_engaged(gate, facts, now_s)
     if gate.state is HOLD and gate.lost:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from dataclasses import replace
 
 import pytest
 
@@ -178,7 +179,15 @@ def test_sr18_pain_holds_softly_and_only_a_person_resumes(state: DriveState) -> 
     assert (resumed.state, resumed.compliant, refusal) == (DriveState.ENGAGED, False, "")
 
 
-@pytest.mark.parametrize("state", [DriveState.OFF, DriveState.READY, DriveState.STOPPED, DriveState.FAULT])
+def test_sr18_a_stopped_arm_that_hurts_or_resists_is_held_softly_and_stays_stopped() -> None:
+    stopped = _at(DriveState.STOPPED)
+    hurts, refusal = gate.wish(stopped, Pain(number=1, reason="my shoulder"), Facts(), 1.0)
+    assert (hurts.state, hurts.reason, hurts.compliant, refusal) == (DriveState.STOPPED, stopped.reason, True, "")
+    resists = gate.watch(stopped, Facts(give_way="The elbow resists."), CONFIG, 1.0)
+    assert resists == replace(stopped, compliant=True)
+
+
+@pytest.mark.parametrize("state", [DriveState.OFF, DriveState.READY, DriveState.FAULT])
 def test_sr18_pain_where_nothing_moves_is_refused_in_words(state: DriveState) -> None:
     assert "A hold for pain is not possible" in gate.wish(_at(state), Pain(number=1, reason=""), Facts(), 1.0)[1]
 
@@ -196,7 +205,7 @@ def test_sr18_resistance_during_a_short_loss_takes_the_right_to_resume_by_itself
     assert gate.watch(held, Facts(near=True), CONFIG, 1.2).state is DriveState.HOLD
 
 
-@pytest.mark.parametrize("state", [s for s in DriveState if s not in (DriveState.ENGAGED, DriveState.HOLD)])
+@pytest.mark.parametrize("state", [DriveState.OFF, DriveState.READY, DriveState.FAULT])
 def test_sr18_an_arm_that_is_not_moved_may_be_pushed(state: DriveState) -> None:
     assert gate.watch(_at(state), Facts(give_way="The elbow resists."), CONFIG, 1.0) == _at(state)
 

@@ -145,3 +145,15 @@ def test_sr5_sr18_the_next_patients_arm_does_not_move_to_where_the_last_one_gave
     run(rig, 2.0)
     assert (rig.now, rig.state.gate.compliant) == (DriveState.STOPPED, True)
     assert rig.command.angle_rad == pytest.approx((0.5, 0.3, 0.0, 0.5), abs=1e-3)
+
+
+def test_sr18_an_arm_that_resists_after_a_stop_is_held_softly_where_it_is() -> None:
+    rig = engaged()
+    assert rig.wish(Stop(number=3, reason=""))
+    run(rig, 0.6)
+    assert min(rig.command.share) == 1.0
+    rig.arm.push_nm = elbow(OVER_NM)
+    run(rig, 0.05)
+    assert rig.now is DriveState.STOPPED
+    assert rig.command.share[:ELBOW] == (SOFT_SHARE,) * ELBOW
+    assert rig.command.torque_nm[0] < LIMITS[0].torque_nm
