@@ -177,6 +177,8 @@ class Loop:
     def _interrupted(self, now_s: float) -> str:
         if self._service_gone:
             return "The service has gone; nobody could be heard."
+        if self._perception.has_failed:
+            return "The body has to be found anew after an error; look whom the sensors follow."
         return self._overruns.fault(self._config.rate_hz, now_s)
 
     def _change(self, after: SafetyState, now_s: float) -> None:

@@ -45,6 +45,8 @@ class Perception:
         self.decoder = Decoder()
         self.errors = 0
         """Times that decoder or pipeline failed and were begun anew."""
+        self.has_failed = False
+        """In the last step; who the patient is has been forgotten with everything else."""
 
     def treat(self, healthy_side: Side) -> None:
         """A session begins: this arm is the healthy one."""
@@ -62,6 +64,7 @@ class Perception:
 
     def step(self, packets: list[Packet], now_s: float) -> Heard:
         """Take the tick's packets and say what can be said now."""
+        self.has_failed = False
         try:
             samples = self._decoded(packets, now_s)
             self._forget_if_silent(samples, now_s)
@@ -70,7 +73,7 @@ class Perception:
             return Heard(samples, self._pipeline.step(now_s), self._pipeline.bodies(now_s))
         except Exception:
             log.exception("perception failed and begins anew")
-            self.errors += 1
+            self.errors, self.has_failed = self.errors + 1, True
             self.decoder = Decoder()
             self.begin_anew()
             return Heard((), PipelineFrame(t_s=now_s, sensors=(), samples=()))

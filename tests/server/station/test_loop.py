@@ -306,6 +306,23 @@ def test_sr8_an_error_in_perception_costs_the_view_and_never_the_loop(monkeypatc
     assert rig.run(3.0).body is not None
 
 
+def test_sr5_after_an_error_in_perception_whoever_is_found_is_not_followed_by_itself(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    rig = engaged()
+
+    def fails(*_: object) -> None:
+        raise RuntimeError("a bug")
+
+    with monkeypatch.context() as patched:
+        patched.setattr("fusion.pipeline.Pipeline.step", fails)
+        assert "found anew" in rig.tick().reason
+    rig.run(3.0)
+    assert rig.last.target is not None
+    assert rig.last.state is DriveState.HOLD
+    assert rig.ask(Resume).accepted
+
+
 def test_following_a_body_is_answered() -> None:
     rig = HandCranked()
     assert rig.ask(FollowBody, sensor="s1", body="1").accepted
