@@ -29,6 +29,8 @@ USUAL_PORT = 80
 """Of a url that names none."""
 CLOCK_AHEAD_S = 1_000_000.0
 """The robot's clock is another than ours."""
+LAST_ACCEPTED_S = 0.1
+"""Somebody who came in the very moment of closing is turned away within this time; without it the socket stays open."""
 LOOPBACK = "127.0.0.1"
 USED = ("advertise", "unadvertise", "publish", "subscribe", "unsubscribe")
 COMMANDS = "silent, frozen, deaf, lag SECONDS, lie JOINT RADIANS, complain WORDS, stall SECONDS, drop, well"
@@ -146,6 +148,7 @@ class RosbridgePeer:
             telling = asyncio.create_task(self._tell())
             await self._end.wait()
             telling.cancel()
+        await asyncio.sleep(LAST_ACCEPTED_S)
 
     async def _talk(self, connection: ServerConnection) -> None:
         self._connections.add(connection)

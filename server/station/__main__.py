@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import logging
+import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -33,4 +34,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    ended = main()
+    logging.shutdown()
+    sys.stdout.flush()
+    # At once: what libraries say while they are taken down (ruckig's binding does) must not follow our last words,
+    # which the service tells people.
+    sys.stderr.flush()
+    os._exit(ended)

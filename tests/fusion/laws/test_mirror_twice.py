@@ -18,7 +18,7 @@ LENGTHS = ArmLengths(0.28, 0.25, 0.08)
 SHOULDER = {Side.RIGHT: np.array([0.18, 0.0, 0.0]), Side.LEFT: np.array([-0.18, 0.0, 0.0])}
 TRUNK = TrunkFrame(np.zeros(3), np.eye(3))
 IMAGE = np.array([-1.0, 1.0, 1.0])
-poses = st.tuples(st.floats(-3.1, 3.1), st.floats(0.0, 3.1), st.floats(-3.1, 3.1), st.floats(0.4, 2.7))
+poses = st.tuples(st.floats(-3.1, 3.1), st.floats(0.0, 3.1), st.floats(-3.1, 3.1), st.floats(0.5, 2.6))
 
 
 def settled(points: np.ndarray, side: Side) -> MirrorTarget:

@@ -11,7 +11,7 @@ SLEEPS = "import time; print('here', flush=True); time.sleep(60)"
 STUBBORN = (
     "import signal, time; signal.signal(signal.SIGTERM, signal.SIG_IGN); print('here', flush=True); time.sleep(60)"
 )
-DIES = "import sys; print('first line'); sys.exit('it hurts')"
+DIES = "import sys; print('first line', flush=True); sys.exit('it hurts')"
 
 
 def child(tmp_path, program, deaths):
