@@ -58,7 +58,7 @@ def test_sr3_where_there_is_room_each_joint_brakes_at_its_own_limit(speed) -> No
     made = trajectory(NAMES, np.zeros(3), np.array(speed), BRAKING, wide, LEAD_S)
     way = np.array(made.points[-1].positions)
     expected = np.array(speed) * LEAD_S + np.sign(speed) * np.square(speed) / (2 * BRAKING)
-    assert way == pytest.approx(expected, abs=3e-5)
+    assert way == pytest.approx(expected, abs=5e-5)  # brakes under 2 ms are left out: 4e-5 rad
 
 
 def test_a_joint_at_rest_is_one_point_where_it_is() -> None:
