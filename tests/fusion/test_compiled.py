@@ -32,7 +32,7 @@ print(called(3), sum(called.stats.cache_hits.values()))
 
 def called_in_a_new_process(folder: Path, **environment: str) -> str:
     done = subprocess.run(
-        [sys.executable, "-W", "error", "caller.py"],
+        [sys.executable, "-B", "-W", "error", "caller.py"],  # -B: a file rewritten within a second is read anew
         cwd=folder,
         env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path), **environment},
         capture_output=True,

@@ -252,7 +252,7 @@ def _at_a_terminal(arguments: list[str], answer: Callable[[str], str | None]) ->
     code = "from server.cli.main import main; main()"
     child, terminal = pty.fork()
     if child == 0:
-        os.execv(sys.executable, [sys.executable, "-c", code, *arguments])
+        os.execv(sys.executable, [sys.executable, "-u", "-c", code, *arguments])
     shown, question = "", ""
     end_s = time.monotonic() + 60
     with suppress(OSError):  # the terminal's other side has closed
