@@ -351,5 +351,7 @@ class LiveTick(msgspec.Struct, frozen=True, kw_only=True):
     limits: tuple[JointLimits, ...]
     trunk_lean_m: float
     """Displacement of SpineShoulder from where it was when the session was enabled."""
+    shoulder_hitch_m: float = 0.0
+    """Rise of the healthy shoulder along the spine since then, beyond what raising the arm brings with it."""
     timing: Timing
     warnings: tuple[str, ...]

@@ -49,6 +49,10 @@ _AIM_ERROR: Final = 0.06
 _MENDED_RAD: Final = 0.01
 _LEAN_RAD_PER_RAD: Final = 0.08
 """How far the trunk leans with the arm's elevation: little when able, much when not (compensation)."""
+_ARMS: Final = {
+    side: [INDEX[f"{name}{side.suffix}"] for name in ("Shoulder", "Elbow", "Wrist", "Hand", "HandTip", "Thumb")]
+    for side in Side
+}
 _SWAY_RAD: Final = np.array([0.020, 0.025, 0.012])
 """Standard deviation of the trunk's pitch, yaw and roll."""
 
@@ -81,6 +85,10 @@ class VirtualPatient:
         self.healthy_side, self.posture = healthy_side, posture
         self.anatomy = anatomy or Anatomy()
         self.t_s = 0.0
+        self.lean_rad = 0.0
+        """Leaning ahead beyond what reaching brings with it; to be changed at any time, as `hitch_m`."""
+        self.hitch_m = 0.0
+        """How far the healthy shoulder is drawn up."""
         self._ability = ability
         self._rng = np.random.default_rng(seed)
         self._sway = Sway(_SWAY_RAD, self._rng)
@@ -121,7 +129,9 @@ class VirtualPatient:
         self._act()
         arms = {self.healthy_side: self.healthy_pose, self.healthy_side.other: affected or self._rest}
         trunk = self.trunk
-        positions: Floats = trunk.origin_in_room + trunk_and_arms(self.anatomy, arms) @ trunk.rotation_trunk_to_room.T
+        in_trunk = trunk_and_arms(self.anatomy, arms)
+        in_trunk[_ARMS[self.healthy_side]] += self.hitch_m * UP
+        positions: Floats = trunk.origin_in_room + in_trunk @ trunk.rotation_trunk_to_room.T
         for joint, place in self._legs.items():
             positions[joint] = positions[INDEX["SpineBase"]] + place
         return positions
@@ -152,11 +162,11 @@ class VirtualPatient:
         if isinstance(goal, PoseGoal):
             return clipped(goal.pose)
         outward = np.array([1.0 if self.healthy_side is Side.RIGHT else -1.0, 1.0, 1.0])
-        from_shoulder = np.array(goal.hand_in_trunk) * outward - [self.anatomy.shoulder_width_m / 2, 0.0, 0.0]
+        from_shoulder = np.array(goal.hand_in_trunk) * outward - [self.anatomy.shoulder_width_m / 2, self.hitch_m, 0.0]
         return pose_for_hand(from_shoulder, self.anatomy.arm, self.healthy_pose)
 
     def _trunk_rotation(self) -> Floats:
         """(3, 3) trunk to world: sway, and leaning ahead (pitch about −x) with the arm."""
         pitch, yaw, roll = self._sway.angles_rad
-        lean = _LEAN_RAD_PER_RAD / self._ability * self.healthy_pose.elevation_rad
+        lean = self.lean_rad + _LEAN_RAD_PER_RAD / self._ability * self.healthy_pose.elevation_rad
         return np.asarray(Rotation.from_euler("YXZ", [yaw, pitch - lean, roll]).as_matrix())

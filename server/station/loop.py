@@ -33,6 +33,7 @@ from server.station.exo.safety_state import SafetyState
 from server.station.exo.smoothing import Calm, calmed
 from server.station.overruns import Overruns
 from server.station.perception import Heard, Perception
+from server.station.shoulder import ShoulderRise
 from server.station.sources.source import Source
 from server.station.view import Build
 from server.station.warnings import Trouble, Warnings
@@ -77,6 +78,7 @@ class Loop:
         self._authority = ""
         self._frame = PipelineFrame(t_s=0.0, sensors=(), samples=())
         self._trunk_at_enable: Floats | None = None
+        self._shoulder = ShoulderRise()
         self._ticks_missed = 0
         self._last_tick_s = 0.0
         self._overruns = Overruns()
@@ -136,6 +138,7 @@ class Loop:
         self._change(after, now_s)
         if isinstance(wish, Enable) and not refusal:
             self._trunk_at_enable = session.trunk_place(self._frame)
+            self._shoulder = self._shoulder.enabled()
         self._tell(
             WishAnswer(
                 t_s=now_s, number=wish.number, accepted=not refusal, reason=refusal, state=self._state.gate.state
@@ -195,6 +198,7 @@ class Loop:
         self._build = self._build.learnt(frame, BUILD_SHARE)
         open_session = self._desk.session
         side = self._perception.healthy_side
+        self._shoulder = self._shoulder.heard(frame, side, 1.0 / self._config.rate_hz)
         samples = {sample.sensor: sample for sample in frame.samples}
         self._index += 1
         return LiveTick(
@@ -220,6 +224,7 @@ class Loop:
             exo=view.exo_view(reading, command, self._state),
             limits=open_session.limits if open_session else (),
             trunk_lean_m=session.lean_m(self._trunk_at_enable, frame),
+            shoulder_hitch_m=self._shoulder.hitch_m,
             timing=self._timing(heard, given_s),
             warnings=(*frame.warnings, *self._warnings.recent(now_s)),
         )
@@ -254,6 +259,7 @@ class Loop:
         closed = self._desk.settle(self._state, now_s)
         if closed is not None:
             self._trunk_at_enable = None
+            self._shoulder = self._shoulder.forgotten()
             self._tell(closed)
         floor = self._demonstration
         if floor is not None and floor.listen(heard.samples, self._desk.session is not None, now_s):
