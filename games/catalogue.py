@@ -3,34 +3,36 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Final, Protocol
+from typing import Final
 
 from fusion.errors import InputError
 from games import reach
-from games.game import Game, GameSettings, Workspace
+from games.game import GameSettings, Workspace
+from games.play import Play
+from games.rules import RulesFactory
 
-
-class GameFactory(Protocol):
-    """Makes a game at its beginning."""
-
-    def __call__(self, workspace: Workspace, seed: int, settings: GameSettings) -> Game:
-        """A new game; the same arguments make the same game."""
-        ...
-
-
-GAMES: Final[Mapping[str, GameFactory]] = {
-    reach.NAME: reach.ReachGame,
+GAMES: Final[Mapping[str, RulesFactory]] = {
+    reach.NAME: reach.ReachRules,
 }
 
 
-def open_game(name: str, workspace: Workspace, seed: int, settings: GameSettings) -> Game:
-    """A new game by name.
+def open_game(name: str, workspace: Workspace, seed: int, settings: GameSettings) -> Play:
+    """A new game by name; the same arguments make the same game.
 
     Raises:
         InputError: there is no game of that name.
+    """
+    check_game(name)
+    return Play(name, GAMES[name], workspace, seed, settings)
+
+
+def check_game(name: str) -> None:
+    """Make sure that there is such a game.
+
+    Raises:
+        InputError: there is none.
     """
     if name not in GAMES:
         raise InputError(
             f"There is no game called '{name}'", f"one of {', '.join(sorted(GAMES))}", "choose one of these games"
         )
-    return GAMES[name](workspace, seed, settings)

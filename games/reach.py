@@ -1,180 +1,107 @@
-"""Reaching and collecting: bring the hand to a target and stay there until it is collected."""
+"""Reaching and collecting: bring the hand to a fruit and stay there until it is collected.
+
+One thing of kind "fruit"; its progress is the dwell.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import isfinite
 from typing import Final
 
 import numpy as np
 
-from games.difficulty import Demands, adapted, demands
-from games.game import GameInput, GameSettings, GameView, Point, TargetView, Workspace
-from games.workspace import distance_m, hand_at, middle_pose, next_reach
+from games.dwell import spread_m
+from games.game import Point, ThingView, Workspace
+from games.levels import between
+from games.rules import Ended, PlayInput, SceneView
+from games.workspace import distance_m, next_reach
 
 NAME: Final = "reach"
-LONGEST_STEP_S: Final = 0.1
-"""A longer step counts as this much: a stalled machine is not the patient's miss."""
+EASY_RADIUS_M, HARD_RADIUS_M = 0.09, 0.05
+EASY_DWELL_S, HARD_DWELL_S = 0.4, 0.8
+EASY_TIME_S, HARD_TIME_S = 14.0, 3.0
 LEAVING: Final = 0.5
 """Outside the target the dwell is lost at half the speed at which it was won."""
-POINTS_PER_HIT, LARGEST_BONUS = 10, 5
-STREAK_EVERY: Final = 5
+POINTS: Final = 10
 RECENT: Final = 4
 
 
 @dataclass(frozen=True, slots=True)
 class Target:
-    """The target that waits."""
+    """The target that waits, and what it asks."""
 
     id: int
     position: Point
-    demands: Demands
+    radius_m: float
+    dwell_s: float
+    """How long the hand stays inside."""
+    time_s: float
+    """How long the target waits."""
     progress: float = 0.0
     age_s: float = 0.0
+    held: tuple[Point, ...] = ()
+    """Where the hand was while inside."""
 
 
-@dataclass(frozen=True, slots=True)
-class State:
-    """Everything that changes, but for the random generator."""
+class ReachRules:
+    """Targets one after the other, each drawn to suit the level."""
 
-    hand: Point
-    time_left_s: float
-    level: float
-    phase: str = "waiting"
-    round: int = 1
-    score: int = 0
-    streak: int = 0
-    hits: int = 0
-    misses: int = 0
-    target: Target | None = None
-    next_id: int = 1
-    recent: tuple[Point, ...] = ()
-    feedback: tuple[str, ...] = ()
+    def __init__(self, workspace: Workspace, rng: np.random.Generator) -> None:
+        self._workspace, self._rng = workspace, rng
+        self._target: Target | None = None
+        self._next_id = 1
+        self._recent: tuple[Point, ...] = ()
 
-
-class ReachGame:
-    """The game in progress.
-
-    Rounds of play alternate with rests; while `GameInput.active` is False nothing changes but the hand. A target that
-    waited too long is taken away without any loss but the streak.
-
-    Args:
-        workspace: where the hand can go.
-        seed: makes the targets; the same seed, settings and inputs give the same game.
-        settings: rounds, times, level.
-    """
-
-    def __init__(self, workspace: Workspace, seed: int, settings: GameSettings) -> None:
-        self._workspace = workspace
-        self._settings = settings
-        self._rng = np.random.default_rng(seed)
-        level = settings.start_level if settings.pinned_level is None else settings.pinned_level
-        hand = hand_at(workspace, middle_pose(workspace))
-        self._state = State(hand=hand, time_left_s=settings.round_s, level=min(max(level, 0.0), 1.0))
-
-    def step(self, given: GameInput) -> GameView:
-        """Advance by `given.dt_s` and say what is to be drawn."""
-        hand = given.hand if all(isfinite(part) for part in given.hand) else self._state.hand
-        self._state = replace(self._state, hand=hand, feedback=())
-        dt_s = min(max(given.dt_s, 0.0), LONGEST_STEP_S)
-        if given.active and self._state.phase != "over":
-            self._state = self._timed(self._advanced(self._begun(self._state), dt_s), dt_s)
-        return self.view()
-
-    def view(self) -> GameView:
-        """The picture as it stands."""
-        state = self._state
-        return GameView(
-            game=NAME,
-            phase=state.phase,
-            score=state.score,
-            streak=state.streak,
-            round=state.round,
-            rounds=self._settings.rounds,
-            targets=() if state.target is None else (_drawn(state.target),),
-            hand=state.hand,
-            time_left_s=state.time_left_s,
-            hits=state.hits,
-            misses=state.misses,
-            level=state.level,
-            feedback=state.feedback,
-        )
-
-    def _begun(self, state: State) -> State:
-        """The first active step starts the first round."""
-        if state.phase != "waiting":
-            return state
-        return replace(state, phase="playing", feedback=("round",))
-
-    def _advanced(self, state: State, dt_s: float) -> State:
+    def step(self, given: PlayInput) -> tuple[Ended, ...]:
         """One step of play on the target, which is drawn where none waits."""
-        if state.phase != "playing":
-            return state
-        target = _held(state.target or self._new_target(state), state.hand, dt_s)
+        target = _held(self._target or self._new_target(given), given)
+        self._target = target
         if target.progress >= 1.0:
-            return self._collected(_without(state, target))
-        if target.age_s >= target.demands.time_s:
-            return self._missed(_without(state, target))
-        return replace(state, target=target)
+            return self._ended(target, success=True)
+        if target.age_s >= target.time_s:
+            return self._ended(target, success=False)
+        return ()
 
-    def _new_target(self, state: State) -> Target:
-        reach = next_reach(self._workspace, state.level, state.hand, state.recent, self._rng)
-        return Target(state.next_id, reach.position, demands(state.level))
+    def scene(self) -> SceneView:
+        """The target."""
+        target = self._target
+        if target is None:
+            return SceneView(0, (), None)
+        return SceneView(target.id, (_drawn(target),), target.position)
 
-    def _collected(self, state: State) -> State:
-        streak = state.streak + 1
-        feedback = ("hit", "streak") if streak % STREAK_EVERY == 0 else ("hit",)
-        return replace(
-            state,
-            hits=state.hits + 1,
-            streak=streak,
-            score=state.score + POINTS_PER_HIT + min(streak - 1, LARGEST_BONUS),
-            level=self._next_level(state.level, hit=True),
-            feedback=(*state.feedback, *feedback),
+    def clear(self) -> None:
+        """Let the target go."""
+        if self._target is not None:
+            self._recent = (*self._recent, self._target.position)[-RECENT:]
+            self._target = None
+
+    def _new_target(self, given: PlayInput) -> Target:
+        reach = next_reach(self._workspace, given.level, given.hand, self._recent, self._rng)
+        number, self._next_id = self._next_id, self._next_id + 1
+        return Target(
+            id=number,
+            position=reach.position,
+            radius_m=between(EASY_RADIUS_M, HARD_RADIUS_M, given.level),
+            dwell_s=between(EASY_DWELL_S, HARD_DWELL_S, given.level),
+            time_s=between(EASY_TIME_S, HARD_TIME_S, given.level),
         )
 
-    def _missed(self, state: State) -> State:
-        return replace(
-            state,
-            misses=state.misses + 1,
-            streak=0,
-            level=self._next_level(state.level, hit=False),
-            feedback=(*state.feedback, "missed"),
-        )
-
-    def _next_level(self, level: float, *, hit: bool) -> float:
-        return adapted(level, hit) if self._settings.pinned_level is None else level
-
-    def _timed(self, state: State, dt_s: float) -> State:
-        """Count the round or the rest down, and change over at its end; what is over of the step counts on."""
-        left_s = state.time_left_s - dt_s
-        if left_s > 0.0:
-            return replace(state, time_left_s=left_s)
-        feedback = state.feedback
-        if state.target is not None:
-            state = _without(state, state.target)
-        if state.phase == "rest":
-            left_s, phase, said = left_s + self._settings.round_s, "playing", "round"
-            state = replace(state, round=state.round + 1)
-        elif state.round < self._settings.rounds:
-            left_s, phase, said = left_s + self._settings.rest_s, "rest", "rest"
-        else:
-            left_s, phase, said = 0.0, "over", "over"
-        return replace(state, phase=phase, time_left_s=left_s, feedback=(*feedback, said))
+    def _ended(self, target: Target, *, success: bool) -> tuple[Ended, ...]:
+        self.clear()
+        if not success:
+            return (Ended(success=False, points=0),)
+        error_m = float(np.mean([distance_m(place, target.position) for place in target.held]))
+        return (Ended(success=True, points=POINTS, error_m=error_m, hold_m=spread_m(target.held)),)
 
 
-def _held(target: Target, hand: Point, dt_s: float) -> Target:
+def _held(target: Target, given: PlayInput) -> Target:
     """The target one step older, its dwell grown or shrunk."""
-    inside = distance_m(hand, target.position) <= target.demands.radius_m
-    change = dt_s / target.demands.dwell_s * (1.0 if inside else -LEAVING)
+    inside = distance_m(given.hand, target.position) <= target.radius_m
+    change = given.dt_s / target.dwell_s * (1.0 if inside else -LEAVING)
     progress = min(max(target.progress + change, 0.0), 1.0)
-    return replace(target, progress=progress, age_s=target.age_s + dt_s)
+    held = (*target.held, given.hand) if inside else target.held
+    return replace(target, progress=progress, age_s=target.age_s + given.dt_s, held=held if progress > 0.0 else ())
 
 
-def _without(state: State, target: Target) -> State:
-    """The state after a target has gone, which the next ones keep clear of."""
-    return replace(state, target=None, next_id=target.id + 1, recent=(*state.recent, target.position)[-RECENT:])
-
-
-def _drawn(target: Target) -> TargetView:
-    return TargetView(target.id, target.position, target.demands.radius_m, target.progress)
+def _drawn(target: Target) -> ThingView:
+    return ThingView(target.id, "fruit", target.position, target.radius_m, target.progress)

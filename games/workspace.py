@@ -63,9 +63,14 @@ def next_reach(
         recent: places of the last targets.
         rng: the game's own seeded generator.
     """
-    reaches = [_drawn(workspace, rng) for _ in range(CANDIDATES)]
+    reaches = reachable(workspace, CANDIDATES, rng)
     wanted_m = NEAREST_STEP_M + level * (FARTHEST_STEP_M - NEAREST_STEP_M)
     return min(reaches, key=lambda reach: _cost(reach, workspace, wanted_m, hand, recent))
+
+
+def reachable(workspace: Workspace, count: int, rng: np.random.Generator) -> list[Reach]:
+    """Places drawn by poses spread evenly over the joint ranges, less a margin at the ends."""
+    return [_drawn(workspace, rng) for _ in range(count)]
 
 
 def middle_pose(workspace: Workspace) -> Pose:

@@ -8,7 +8,8 @@ from math import dist
 
 from fusion.skeleton import Side
 from games.catalogue import GAMES, open_game
-from games.game import Game, GameInput, GameSettings, GameView, Workspace
+from games.game import GameInput, GameSettings, GameView, Workspace
+from games.programme import Exercise, Programme
 from server.api.live import AuthorityView, SessionPhase, SessionView
 from server.api.measured_range import RangeMeter
 from server.messages import DemoGoal, DriveState, JointLimits, LiveTick, Point
@@ -57,7 +58,7 @@ class Course:
         """Measures the patient's own range, once somebody has asked for it."""
         self._state = DriveState.OFF
         self._t_s = plan.t_started_s
-        self._game: Game | None = None
+        self._game: Programme | None = None
 
     def step(self, tick: LiveTick) -> GameView | None:
         """Take a tick; the game's picture, None until the arm was first engaged."""
@@ -119,16 +120,17 @@ def goal(course: Course | None, tick: LiveTick) -> DemoGoal:
 
 
 def _sought(picture: GameView | None, tick: LiveTick) -> Point | None:
-    """What the healthy hand mirrors: the target, or the held arm, near which a movement may begin; None = rest."""
+    """What the healthy hand mirrors: the game's aim, or the held arm, near which a movement may begin; None = rest."""
     if picture is None:
         return None
     if tick.state is not DriveState.ENGAGED:
         return tick.affected.points_in_trunk[-1]
-    return picture.targets[0].position if picture.phase == "playing" and picture.targets else None
+    return picture.aim
 
 
-def _opened(plan: Plan, tick: LiveTick) -> Game:
-    return open_game(plan.game, _workspace(plan, tick), plan.seed, GameSettings(start_level=plan.level))
+def _opened(plan: Plan, tick: LiveTick) -> Programme:
+    exercises = (Exercise(plan.game, GameSettings(start_level=plan.level)),)
+    return Programme(exercises, _workspace(plan, tick), plan.seed)
 
 
 def _workspace(plan: Plan, tick: LiveTick) -> Workspace:

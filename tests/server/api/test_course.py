@@ -115,7 +115,7 @@ def test_the_goal_is_the_mirror_image_of_the_target_or_of_the_held_arm_and_rest_
     for k in range(20):
         engaged = tick(10.2 + k / 50, DriveState.ENGAGED)
         picture = course.step(engaged)
-    target = picture.targets[0].position
+    target = picture.aim
     assert goal(course, engaged).hand_in_trunk == (-target[0], target[1], target[2])
     assert goal(course, engaged).healthy_side is Side.RIGHT
     held = tick(11.0, DriveState.HOLD)

@@ -1,0 +1,8 @@
+"""From a level to what it asks."""
+
+from __future__ import annotations
+
+
+def between(easy: float, hard: float, level: float) -> float:
+    """The value at a level in 0..1: `easy` at 0, `hard` at 1, a straight line between."""
+    return easy + level * (hard - easy)

@@ -1,0 +1,85 @@
+"""Choices made by staying at a spot with the hand: what a patient who cannot use a mouse steers the game with."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Final
+
+import numpy as np
+
+from games.game import ChoiceView, GameView, Phase, Point, Wish, Workspace
+from games.workspace import distance_m, hand_at, middle_pose, reachable
+
+DWELL_S: Final = 1.5
+LEAVING: Final = 2.0
+"""Outside the spot the dwell is lost at twice the speed at which it was won: a choice must be meant."""
+LARGEST_RADIUS_M: Final = 0.09
+SHARE_OF_GAP: Final = 0.4
+"""A spot takes this share of the way to the nearest other one, so that two are never chosen at once."""
+CLEAR_OF_AIM_M: Final = 0.2
+"""The pause is not offered where the game itself wants the hand to be."""
+NO_CHOICE_DRAWN: Final = 200
+SEED: Final = 0
+"""The spots depend on the workspace alone."""
+
+
+class Menu:
+    """The spots of a workspace, and how long the hand has stayed at each that is offered.
+
+    Args:
+        workspace: where the hand can go; every spot is reached with all joints inside their ranges.
+    """
+
+    def __init__(self, workspace: Workspace) -> None:
+        middle = hand_at(workspace, middle_pose(workspace))
+        drawn = [reach.position for reach in reachable(workspace, NO_CHOICE_DRAWN, np.random.default_rng(SEED))]
+        left, right = min(drawn, key=lambda place: place[0]), max(drawn, key=lambda place: place[0])
+        low = min(drawn, key=lambda place: place[1])
+        self._spots: Mapping[Wish, Point] = {
+            Wish.START: middle,
+            Wish.GO_ON: middle,
+            Wish.QUIT: left,
+            Wish.NEXT: right,
+            Wish.PAUSE: low,
+        }
+        gap_m = min(distance_m(middle, left), distance_m(middle, right))
+        self._radius_m = min(LARGEST_RADIUS_M, SHARE_OF_GAP * gap_m)
+        self._progress: dict[Wish, float] = {}
+
+    def step(self, offered: tuple[Wish, ...], hand: Point, dt_s: float) -> Wish:
+        """What is chosen with this step, `Wish.NONE` where nothing is."""
+        self._progress = {wish: self._moved_on(wish, hand, dt_s) for wish in offered}
+        chosen = next((wish for wish, progress in self._progress.items() if progress >= 1.0), Wish.NONE)
+        if chosen is not Wish.NONE:
+            self._progress = {}
+        return chosen
+
+    def views(self, offered: tuple[Wish, ...]) -> tuple[ChoiceView, ...]:
+        """The spots to draw."""
+        return tuple(
+            ChoiceView(wish, self._spots[wish], self._radius_m, self._progress.get(wish, 0.0)) for wish in offered
+        )
+
+    def offered(self, view: GameView, *, has_next: bool) -> tuple[Wish, ...]:
+        """What can be chosen while the game stands as `view` says."""
+        match view.phase:
+            case Phase.WAITING:
+                return (Wish.START,)
+            case Phase.PLAYING:
+                return (Wish.PAUSE,) if self._is_clear(view.aim) else ()
+            case Phase.REST:
+                return (Wish.GO_ON,)
+            case Phase.PAUSED:
+                return (Wish.GO_ON, Wish.QUIT, Wish.NEXT) if has_next else (Wish.GO_ON, Wish.QUIT)
+            case Phase.BETWEEN:
+                return (Wish.GO_ON, Wish.QUIT)
+            case Phase.OVER:
+                return ()
+
+    def _moved_on(self, wish: Wish, hand: Point, dt_s: float) -> float:
+        inside = distance_m(hand, self._spots[wish]) <= self._radius_m
+        change = dt_s / DWELL_S * (1.0 if inside else -LEAVING)
+        return min(max(self._progress.get(wish, 0.0) + change, 0.0), 1.0)
+
+    def _is_clear(self, aim: Point | None) -> bool:
+        return aim is None or distance_m(aim, self._spots[Wish.PAUSE]) > CLEAR_OF_AIM_M
