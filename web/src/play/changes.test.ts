@@ -8,27 +8,40 @@ const view = (given: Partial<GameView>): GameView => ({
   streak: 0,
   round: 1,
   rounds: 3,
-  targets: [],
+  things: [],
+  way: [],
   hand: [0, 0, 0],
+  aim: null,
   time_left_s: 60,
   hits: 0,
   misses: 0,
   level: 0.5,
+  pinned: false,
   feedback: [],
+  choices: [],
+  posture: "",
+  rest_suggested: false,
+  exercise: 1,
+  exercises: 1,
+  next_game: "",
+  total_score: 0,
   ...given,
 });
-const target = (id: number) => ({
+const thing = (id: number) => ({
   id,
+  kind: "fruit",
   position: [0, 0, -0.4] as [number, number, number],
   radius_m: 0.07,
   progress: 1,
+  state: "",
+  turn_rad: 0,
 });
 
 describe("changesBetween", () => {
   it("finds a hit though the picture with its feedback was skipped", () => {
-    const before = view({ hits: 2, score: 20, targets: [target(3)] });
-    const changes = changesBetween(before, view({ hits: 3, score: 32, targets: [target(4)] }));
-    expect(changes).toMatchObject({ hits: 1, points: 12, misses: 0, gone: [target(3)] });
+    const before = view({ hits: 2, score: 20, things: [thing(3)] });
+    const changes = changesBetween(before, view({ hits: 3, score: 32, things: [thing(4)] }));
+    expect(changes).toMatchObject({ hits: 1, points: 12, misses: 0, gone: [thing(3)] });
   });
 
   it("says the streak once, at each fifth hit", () => {

@@ -1,27 +1,30 @@
 // Everything on the patient's screen together: takes messages as they come, draws a frame when asked.
-import type { Vector3 } from "three";
+import { Vector3 } from "three";
 import type { LiveMessage } from "../api/types";
-import { type Changes, changesBetween, type GameView } from "./changes";
+import { type Changes, changesBetween, type GameView, NOTHING, viewOf } from "./changes";
 import { Effects } from "./effects";
-import { garden } from "./garden";
 import { Guide } from "./guide";
 import { HelpNote } from "./help-note";
 import { Hud } from "./hud";
-import { Limbs } from "./limbs";
-import { Orchard } from "./orchard";
+import { type Hands, Limbs } from "./limbs";
 import { Overlay } from "./overlay";
 import { Pace } from "./pace";
 import { reasonFor } from "./reason";
+import type { GameScene } from "./scene";
+import { SceneKeeper } from "./scene-keeper";
+import { sceneOf } from "./scenes";
 import { type Access, type Face, faceFor } from "./screen";
 import type { Cue, Sound } from "./sound";
 import { Stage } from "./stage";
 
 const LONGEST_STEP_S = 0.1;
+/** Its scenery is what is seen while nothing is played. */
+const FIRST_GAME = "reach";
 
 export class Picture {
   private readonly stage: Stage;
   private readonly limbs: Limbs;
-  private readonly orchard = new Orchard();
+  private readonly scenes: SceneKeeper;
   private readonly guide = new Guide();
   private readonly stillness = matchMedia("(prefers-reduced-motion: reduce)");
   private readonly effects = new Effects(() => this.stillness.matches);
@@ -44,16 +47,18 @@ export class Picture {
     overlay: HTMLElement,
     private readonly sound: Sound,
   ) {
-    this.stage = new Stage(canvas, backdrop, garden());
+    this.stage = new Stage(canvas, backdrop);
     this.pace = new Pace(this.stage.hoped_fps);
+    this.scenes = new SceneKeeper(sceneOf, (scene) => this.enter(scene));
     this.limbs = new Limbs((side) => {
-      this.stage.look(side);
       this.page.dataset.side = side;
+      this.scenes.want(this.game?.game ?? FIRST_GAME, side);
     });
+    this.scenes.want(FIRST_GAME, this.limbs.side);
     this.hud = new Hud(hud);
     this.overlay = new Overlay(overlay);
     this.helpNote = new HelpNote(page);
-    const parts = [this.guide.group, this.orchard.group, this.limbs.group, this.effects.group];
+    const parts = [this.guide.group, this.scenes.group, this.limbs.group, this.effects.group];
     this.stage.scene.add(...parts);
   }
 
@@ -63,9 +68,11 @@ export class Picture {
     this.arrived_s = now_s;
     this.limbs.take(message.tick, now_s);
     this.helpNote.take(message, now_s);
-    const changes = changesBetween(this.game, message.game);
-    this.game = message.game;
-    this.react(changes);
+    const game = viewOf(message);
+    const changes = changesBetween(this.game, game);
+    if (this.game && !game) this.scenes.begin(FIRST_GAME, this.limbs.side);
+    this.game = game;
+    if (this.game) this.react(this.game, changes);
   }
 
   /** Draws the moment `now_s`, unless the last frame is too young for a machine that must be spared. */
@@ -74,32 +81,50 @@ export class Picture {
     const dt_s = Math.min(LONGEST_STEP_S, now_s - this.last_s);
     this.last_s = now_s;
     const face = faceFor(access, this.newest, now_s - this.arrived_s);
-    const hand = this.limbs.animate(now_s);
-    this.animate(face, dt_s, hand);
+    const hands = this.limbs.animate(now_s);
+    this.animate(face, dt_s, now_s, hands);
     this.hud.show(this.game);
     this.helpNote.show(face, now_s);
     this.overlay.show(face, this.game, reasonFor(face, this.newest?.tick), now_s);
     this.stage.render();
     if (this.pace.frame(now_s)) this.stage.coarsen();
-    this.mark(face, hand);
+    this.mark(face, hands.acting);
   }
 
-  private react(changes: Changes): void {
-    for (const place of this.orchard.show(this.game, changes)) {
+  /** A scene takes the stage. */
+  private enter(scene: GameScene): void {
+    const both = scene.bothArms === true;
+    this.limbs.both = both;
+    this.stage.set(scene.scenery, both ? "both" : this.limbs.side);
+    if (this.game) this.scenes.show(this.game, NOTHING);
+  }
+
+  private react(view: GameView, changes: Changes): void {
+    if (changes.fresh) this.scenes.begin(view.game, this.limbs.side);
+    const places = this.scenes.show(view, changes);
+    for (const place of places) {
       this.effects.burst(place);
       this.hud.popUp(changes.points, this.stage.onPage(place));
     }
-    if (this.game) this.hud.announce(changes, this.game);
-    const cue = cueFor(changes);
-    if (cue) this.sound.play(cue);
+    this.hud.announce(changes, view);
+    this.listen(view, changes, places[0]?.x ?? view.hand[0]);
   }
 
-  private animate(face: Face, dt_s: number, hand: Vector3 | null): void {
+  /** Sounds what happened at `x_m`, what all games share and the game's own words. */
+  private listen(view: GameView, changes: Changes, x_m: number): void {
+    const cue = cueFor(changes);
+    if (cue) this.sound.play(cue, x_m);
+    for (const word of view.feedback) this.sound.ring(this.scenes.current?.tones?.[word] ?? [], x_m);
+  }
+
+  private animate(face: Face, dt_s: number, now_s: number, hands: Hands): void {
     const still = this.stillness.matches;
     const { camera } = this.stage;
-    this.orchard.animate(dt_s, hand, camera, still);
+    const scene = this.scenes.current;
+    scene?.animate({ dt_s, now_s, hand: hands.acting, healthyHand: hands.healthy, camera, still });
     this.effects.animate(dt_s, camera);
-    this.guide.lead(hand, face === "playing" ? this.orchard.nearest(hand) : null);
+    const aim = face === "playing" && scene?.guided !== false ? this.game?.aim : null;
+    this.guide.lead(hands.acting, aim ? new Vector3(...aim) : null);
   }
 
   /** What a test, or a person looking into the page, wants to know without looking at pixels. */

@@ -1,10 +1,14 @@
-// Gentle sounds made on the spot. Silent until somebody has touched the page (browsers ask for that) and while muted.
+// Gentle sounds made on the spot, heard from where they happen: left, right or between. Silent until somebody has
+// touched the page (browsers ask for that) and while muted.
 
 const REMEMBERED_AS = "mirrorlimb.play.muted";
 const LOUDNESS = 0.16;
 
+/** A sound this far to the side is heard from that side alone; in metres of the trunk frame. */
+const FULL_SIDE_M = 0.6;
+
 /** A tone: when it begins after now, its pitch, how long it rings. */
-interface Tone {
+export interface Tone {
   readonly after_s: number;
   readonly pitch_hz: number;
   readonly ring_s: number;
@@ -21,7 +25,7 @@ const G5 = 783.99;
 const A5 = 880;
 const C6 = 1046.5;
 
-const tone = (after_s: number, pitch_hz: number, ring_s: number): Tone => ({ after_s, pitch_hz, ring_s });
+export const tone = (after_s: number, pitch_hz: number, ring_s: number): Tone => ({ after_s, pitch_hz, ring_s });
 const CUES: Record<Cue, readonly Tone[]> = {
   hit: [tone(0, E5, 0.9), tone(0.09, A5, 1.2)],
   streak: [tone(0, C5, 0.8), tone(0.09, E5, 0.8), tone(0.18, G5, 0.9), tone(0.27, C6, 1.6)],
@@ -53,10 +57,17 @@ export class Sound {
     this.play("hit");
   }
 
-  play(cue: Cue): void {
+  /** Plays a shared cue from `x_m` to the right of the patient's middle. */
+  play(cue: Cue, x_m = 0): void {
+    this.ring(CUES[cue], x_m);
+  }
+
+  ring(tones: readonly Tone[], x_m = 0): void {
     const { context } = this;
     if (!context || this.silenced) return;
-    for (const one of CUES[cue]) strike(context, one);
+    const place = new StereoPannerNode(context, { pan: panOf(x_m) });
+    place.connect(context.destination);
+    for (const one of tones) strike(context, one, place);
   }
 
   private wake(): void {
@@ -65,8 +76,13 @@ export class Sound {
   }
 }
 
+/** Where between left (−1) and right (1) something is heard. */
+export function panOf(x_m: number): number {
+  return Math.max(-1, Math.min(1, x_m / FULL_SIDE_M));
+}
+
 /** A soft bell: the tone and a faint octave above it, both dying away. */
-function strike(context: AudioContext, { after_s, pitch_hz, ring_s }: Tone): void {
+function strike(context: AudioContext, { after_s, pitch_hz, ring_s }: Tone, place: AudioNode): void {
   for (const [multiple, share] of [
     [1, 1],
     [2, 0.25],
@@ -78,7 +94,7 @@ function strike(context: AudioContext, { after_s, pitch_hz, ring_s }: Tone): voi
     volume.gain.setValueAtTime(0, start_s);
     volume.gain.linearRampToValueAtTime(LOUDNESS * share, start_s + 0.012);
     volume.gain.exponentialRampToValueAtTime(0.0005, start_s + ring_s / multiple);
-    oscillator.connect(volume).connect(context.destination);
+    oscillator.connect(volume).connect(place);
     oscillator.start(start_s);
     oscillator.stop(start_s + ring_s);
   }

@@ -9,6 +9,7 @@ import {
   Vector3,
   WebGLRenderer,
 } from "three";
+import type { Side } from "./hand-shape";
 import { SUN_DIRECTION } from "./table-shadow";
 
 /**
@@ -38,6 +39,7 @@ export class Stage {
   /** No frame sooner than this after the last. */
   readonly leastFrame_s: number;
   private pixelRatio: number;
+  private scenery = new Scene();
 
   /**
    * The scenery is painted once onto `backdrop`, behind the see-through `canvas`: the eyes never move and nothing acts
@@ -46,7 +48,6 @@ export class Stage {
   constructor(
     private readonly canvas: HTMLCanvasElement,
     private readonly backdrop: HTMLCanvasElement,
-    private readonly scenery: Scene,
   ) {
     const sparing = drawsInSoftware();
     this.hoped_fps = sparing ? SPARING_FPS : FULL_FPS;
@@ -57,14 +58,14 @@ export class Stage {
     this.renderer = new WebGLRenderer({ canvas, antialias: !sparing, alpha: true, stencil: true, powerPreference });
     this.scene.add(...lights());
     addEventListener("resize", () => this.fit());
-    this.look("right");
     this.fit();
   }
 
-  /** Puts the eyes where an arm of that side is well seen. */
-  look(side: "left" | "right"): void {
+  /** Shows another scenery, seen from where an arm of that side is well in view, or both arms equally. */
+  set(scenery: Scene, side: Side | "both"): void {
+    this.scenery = scenery;
     this.camera.position.copy(EYES_IN_TRUNK);
-    if (side === "left") this.camera.position.x *= -1;
+    this.camera.position.x *= { left: -1, both: 0, right: 1 }[side];
     this.camera.updateMatrixWorld();
     this.paintBackdrop();
   }

@@ -2,7 +2,11 @@
 import { BoxGeometry, Color, CylinderGeometry, Group, Mesh, MeshBasicMaterial } from "three";
 import { boardsTexture } from "./textures";
 
-/** Height of the table top in the trunk frame: low, and its near edge so far ahead that a hanging arm passes before it. */
+/**
+ * The plane on which shadows and the guide's rings fall in every scene, whatever lies there: wood, water, a deck.
+ *
+ * Height of the table top in the trunk frame: low, and its near edge so far ahead that a hanging arm passes before it.
+ */
 export const TABLE_Y = -0.57;
 const WIDTH_M = 2.2;
 const DEPTH_M = 1;

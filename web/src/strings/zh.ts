@@ -2,9 +2,10 @@
 
 import type { Key } from "./index";
 import { frame } from "./zh/frame";
+import { gameReach } from "./zh/game-reach";
 import { live } from "./zh/live";
 import { patient } from "./zh/patient";
 import { play } from "./zh/play";
 import { session } from "./zh/session";
 
-export const zh: Record<Key, string> = { ...play, ...live, ...session, ...patient, ...frame };
+export const zh: Record<Key, string> = { ...play, ...live, ...session, ...patient, ...frame, ...gameReach };

@@ -40,7 +40,6 @@ export const session = {
   "summary.status.open": "This session is still open; figures come when it has ended.",
   "summary.status.interrupted": "This session was cut short. The figures come from what had been recorded.",
   "summary.status.ended": "This session has ended.",
-  "game.reach": "Reaching",
   "curves.title": "Both arms over the session",
   "curves.none": "Nothing was recorded.",
   "curves.closer": "Drag across the curves to look closer; double-click to see all.",

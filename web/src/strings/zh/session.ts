@@ -40,7 +40,6 @@ export const session: Record<keyof typeof english, string> = {
   "summary.status.open": "治疗仍在进行，结束后才有结果。",
   "summary.status.interrupted": "本次治疗意外中断，结果来自已记录的部分。",
   "summary.status.ended": "本次治疗已结束。",
-  "game.reach": "够物",
   "curves.title": "双臂角度曲线",
   "curves.none": "没有记录。",
   "curves.closer": "在曲线上拖动可放大，双击还原。",

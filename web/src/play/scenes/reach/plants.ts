@@ -1,7 +1,7 @@
 // Trees, a hedge and flowers beyond the table.
 import { type BufferGeometry, Color, CylinderGeometry, IcosahedronGeometry, Mesh, MeshBasicMaterial } from "three";
 import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
-import { shade } from "./paint";
+import { shade } from "../../paint";
 
 type Tree = readonly [x: number, z: number, height: number, color: string];
 const TREES: readonly Tree[] = [

@@ -13,10 +13,10 @@ import {
   SpriteMaterial,
   type Vector3,
 } from "three";
-import { paint } from "./paint";
+import { paint } from "../../paint";
+import { table } from "../../table";
+import { glowTexture } from "../../textures";
 import { plants } from "./plants";
-import { table } from "./table";
-import { glowTexture } from "./textures";
 
 const LAWN_Y = -1.15;
 const LAWN_NEAR = new Color("#86b85f");
