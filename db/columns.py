@@ -6,7 +6,7 @@ from datetime import UTC, datetime
 from enum import StrEnum
 from typing import Any
 
-from pydantic import BaseModel
+from pydantic import TypeAdapter
 from sqlalchemy import JSON, DateTime, Dialect, Enum, TypeDecorator
 
 
@@ -36,23 +36,24 @@ class UtcDateTime(TypeDecorator[datetime]):
         return value.replace(tzinfo=UTC) if value.tzinfo is None else value.astimezone(UTC)
 
 
-class Document(TypeDecorator[BaseModel]):
-    """A pydantic model kept as JSON."""
+class Document(TypeDecorator[Any]):
+    """A pydantic model, or a tuple of them, kept as JSON."""
 
     impl = JSON
     cache_ok = True
 
-    def __init__(self, model: type[BaseModel]) -> None:
+    def __init__(self, model: Any) -> None:
         super().__init__()
         self.model = model
+        self._adapter: TypeAdapter[Any] = TypeAdapter(model)
 
-    def process_bind_param(self, value: BaseModel | None, dialect: Dialect) -> Any:
-        """To the database; a plain dictionary is validated first."""
-        return None if value is None else self.model.model_validate(value).model_dump(mode="json")
+    def process_bind_param(self, value: Any, dialect: Dialect) -> Any:
+        """To the database; plain dictionaries and lists are validated first."""
+        return None if value is None else self._adapter.dump_python(self._adapter.validate_python(value), mode="json")
 
-    def process_result_value(self, value: Any, dialect: Dialect) -> BaseModel | None:
+    def process_result_value(self, value: Any, dialect: Dialect) -> Any:
         """From the database."""
-        return None if value is None else self.model.model_validate(value)
+        return None if value is None else self._adapter.validate_python(value)
 
 
 def word_of(kind: type[StrEnum]) -> Enum:

@@ -11,8 +11,12 @@ from sqlalchemy import JSON, String
 from sqlmodel import Field, SQLModel
 
 from db.columns import Document, UtcDateTime, now_utc, word_of
+from db.exercise import Exercise, PlayedExercise
 from db.limits import AssistanceName
 from db.patient import SideName
+from db.workspace import MeasuredWorkspace
+
+NOTES_LENGTH = 10_000
 
 
 class SessionStatus(StrEnum):
@@ -54,9 +58,11 @@ class SessionBase(SQLModel):
 
     patient_id: int = Field(foreign_key="patient.id", index=True)
     affected_side: SideName = Field(sa_type=String)
-    game: str = Field(max_length=40)
+    exercises: tuple[Exercise, ...] = Field(sa_type=Document(tuple[Exercise, ...]), description="As they began.")
+    played: tuple[PlayedExercise, ...] = Field(
+        default=(), sa_type=Document(tuple[PlayedExercise, ...]), description="What became of them."
+    )
     seed: int
-    level: float = Field(ge=0, le=1, description="Difficulty at the start, 0 to 1.")
     assistance: AssistanceName = Field(default="passive", sa_type=String, description="How the drive began to help.")
     assist_level: float = Field(default=1.0, ge=0, le=1, description="The most help while assisted, at the start.")
     started_at: datetime = Field(default_factory=now_utc, sa_type=UtcDateTime)
@@ -65,6 +71,9 @@ class SessionBase(SQLModel):
     pain_before: int | None = Field(default=None, ge=0, le=10)
     pain_after: int | None = Field(default=None, ge=0, le=10)
     limits: AllLimits = Field(default_factory=AllLimits, sa_type=Document(AllLimits))
+    workspace: MeasuredWorkspace | None = Field(
+        default=None, sa_type=Document(MeasuredWorkspace), description="Null = the games had the limits to go by."
+    )
     version: str = Field(default="", max_length=40, description="The program's version.")
 
 
@@ -76,6 +85,7 @@ class TherapySession(SessionBase, table=True):
     id: int | None = Field(default=None, primary_key=True)
     therapist_id: int = Field(foreign_key="account.id", index=True)
     recording: str = Field(default="", max_length=200)
+    notes: str = Field(default="", max_length=NOTES_LENGTH)
     measured: bool = False
     """Its metrics are in the database; false where that failed and must be tried again."""
 
@@ -87,6 +97,7 @@ class MetricBase(SQLModel):
     joint: str = Field(default="", max_length=160, description="Or the sensor, in a sensor's figures.")
     side: str = Field(default="", max_length=10)
     value: float | None = Field(description="Null where it could not be measured.")
+    sem: float | None = Field(default=None, description="Standard error of the value within the session, if known.")
     unit: str = Field(default="", max_length=20)
     label: str = Field(default="", max_length=80, description="Key of its name in the browser's strings.")
     caveat: str = Field(default="", max_length=80, description="Key of what must be said beside it, or empty.")
@@ -139,6 +150,19 @@ class SessionPublic(SessionBase):
 
 
 class SessionDetail(SessionPublic):
-    """A session with what it measured."""
+    """A session with what it measured and what its therapist noted."""
 
+    notes: str
     metrics: list[MetricPublic] = []
+
+
+class SessionUpdate(SQLModel):
+    """What a therapist may add during a session and afterwards; whatever is left out stays."""
+
+    model_config = {
+        "extra": "forbid",
+        "json_schema_extra": {"examples": [{"notes": "less trunk than last week", "pain_after": 1}]},
+    }
+
+    notes: str | None = Field(default=None, max_length=NOTES_LENGTH)
+    pain_after: int | None = Field(default=None, ge=0, le=10)

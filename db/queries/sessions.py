@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from datetime import datetime
 
 from sqlalchemy import delete
 from sqlmodel import Session, col, func, select
@@ -17,8 +18,12 @@ from db.therapy_session import (
     SessionDetail,
     SessionPublic,
     SessionStatus,
+    SessionUpdate,
     TherapySession,
 )
+
+LOOKED_BACK = 100
+"""Sessions in which a game that was played long ago is still looked for."""
 
 
 def add_session(session: Session, opened: TherapySession) -> TherapySession:
@@ -42,6 +47,38 @@ def sessions_left_open(session: Session) -> list[TherapySession]:
     """Sessions that a crash left open, or whose metrics could not be stored."""
     unfinished = (col(TherapySession.status) == SessionStatus.OPEN) | (col(TherapySession.measured).is_(False))
     return list(session.exec(select(TherapySession).where(unfinished).order_by(col(TherapySession.id))))
+
+
+def begun_since(session: Session, since: datetime, patient_id: int | None = None) -> list[TherapySession]:
+    """Sessions that began then or later, oldest first; of one patient or of all."""
+    rows = select(TherapySession).where(col(TherapySession.started_at) >= since)
+    if patient_id is not None:
+        rows = rows.where(TherapySession.patient_id == patient_id)
+    return list(session.exec(rows.order_by(col(TherapySession.id))))
+
+
+def newest_of_each(session: Session) -> dict[int, TherapySession]:
+    """The newest session of each patient who has one, by the patient's number."""
+    newest = select(func.max(TherapySession.id)).group_by(col(TherapySession.patient_id))
+    rows = session.exec(select(TherapySession).where(col(TherapySession.id).in_(newest)))
+    return {found.patient_id: found for found in rows}
+
+
+def levels_reached(session: Session, patient_id: int) -> dict[str, float]:
+    """The difficulty that a patient last reached in each game that was played in the newest sessions."""
+    rows = select(TherapySession.played).where(TherapySession.patient_id == patient_id)
+    newest = session.exec(rows.order_by(col(TherapySession.id).desc()).limit(LOOKED_BACK)).all()
+    return {one.game: one.level for played in reversed(newest) for one in played}
+
+
+def change_session(session: Session, found: TherapySession, form: SessionUpdate) -> None:
+    """Change what the form names; the rest stays."""
+    for name in form.model_fields_set:
+        value = getattr(form, name)
+        if value is not None:
+            setattr(found, name, value)
+    session.add(found)
+    session.flush()
 
 
 def add_event(session: Session, event: Event) -> Event:

@@ -14,10 +14,12 @@ from fastapi.security import APIKeyCookie
 from sqlmodel import Session
 
 from db.account import Account
+from db.patient import Patient
+from db.queries import patients
 from server.api.auth import COOKIE, Auth
 from server.api.authority import PAGE_NAME, Client
 from server.api.controls import Controls
-from server.api.errors import ApiError
+from server.api.errors import ApiError, not_found
 from server.api.figures import Figures
 from server.api.service import Service
 from server.api.therapy import Therapy
@@ -85,6 +87,17 @@ async def get_therapist(account: AccountDep) -> Account:
 
 
 TherapistDep = Annotated[Account, Depends(get_therapist)]
+
+
+def get_patient(patient_id: int, _: TherapistDep, session: SessionDep) -> Patient:
+    """The patient whom the address names, for those who treat; 404 where there is none."""
+    patient = patients.find_patient(session, patient_id)
+    if patient is None:
+        raise not_found("patient", patient_id)
+    return patient
+
+
+PatientDep = Annotated[Patient, Depends(get_patient)]
 PageName = Annotated[
     str,
     Header(

@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from pydantic import BaseModel, ConfigDict, Field, StringConstraints
 
 from db.account import AccountPublic
+from db.exercise import Exercise
 from db.limits import AssistanceName, PassiveRange
 from db.patient import PatientPublic, SideName
 from db.therapy_session import LimitsSnapshot
@@ -66,8 +67,8 @@ class SessionOpen(_Form):
 
     patient_id: int
     confirmed_affected_side: SideName
-    game: str = "reach"
-    level: float = Field(default=0.3, ge=0, le=1)
+    exercises: tuple[Exercise, ...] | None = Field(default=None, min_length=1, max_length=12)
+    """Null = the patient's plan; without one, six minutes of reach."""
     pain_before: Pain | None = None
     assistance: AssistanceName | None = None
     """How the drive helps at first; null = as the patient's page says."""
@@ -81,8 +82,7 @@ class SessionOpen(_Form):
                 {
                     "patient_id": 1,
                     "confirmed_affected_side": "left",
-                    "game": "reach",
-                    "level": 0.3,
+                    "exercises": [{"game": "reach", "minutes": 6.0, "level": 0.3, "pinned": False}],
                     "pain_before": 2,
                 }
             ]

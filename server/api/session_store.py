@@ -19,6 +19,7 @@ from db.therapy_session import (
 )
 from server import __version__
 from server.api.errors import not_found
+from server.api.exercises import exercises_for
 from server.api.forms import SessionOpen
 from server.api.journal import CONTROL, SCORE
 from server.api.limits import snapshots
@@ -52,7 +53,11 @@ def begin(
     seed: int,
     limits: tuple[JointLimits, ...],
 ) -> TherapySession:
-    """Store a session that begins now, and decide where it is recorded."""
+    """Store a session that begins now, and decide where it is recorded.
+
+    Raises:
+        InputError: it names a game that there is not.
+    """
     with database.session() as session:
         begun = sessions.add_session(
             session,
@@ -60,9 +65,8 @@ def begin(
                 patient_id=form.patient_id,
                 therapist_id=therapist_id,
                 affected_side=form.confirmed_affected_side,
-                game=form.game,
+                exercises=exercises_for(session, form.patient_id, form.exercises),
                 seed=seed,
-                level=form.level,
                 pain_before=form.pain_before,
                 assistance=form.assistance or patient.assistance,
                 assist_level=patient.assist_level_most if form.assist_level is None else form.assist_level,

@@ -16,9 +16,8 @@ from db.database import Database
 from db.errors import DatabaseError
 from db.patient import Patient
 from db.therapy_session import SessionDetail, SessionPublic, SessionStatus, TherapySession
-from fusion.errors import InputError, RefusedError
+from fusion.errors import RefusedError
 from fusion.skeleton import Side
-from games.catalogue import GAMES
 from games.game import GameView
 from server.api import session_store
 from server.api.authority import Authority, Client
@@ -126,7 +125,6 @@ class Therapy:
         async with self._turn:
             if self._course is not None:
                 raise RefusedError("a session is open already", "one session at a time", "end that session first")
-            _check_game(form.game)
             patient = await run_in_threadpool(session_store.existing_patient, self._database, form.patient_id)
             _check_side(form, patient)
             _check_limits(form, patient)
@@ -196,9 +194,9 @@ class Therapy:
             id=begun.id or 0,
             patient=patient.name,
             affected_side=Side(begun.affected_side),
-            game=begun.game,
+            game=begun.exercises[0].game,
             seed=begun.seed,
-            level=begun.level,
+            level=begun.exercises[0].level or 0.0,
             limits=limits,
             assist_level_most=patient.assist_level_most,
             soft_margin_rad=self._config.station.gate.soft_margin_rad,
@@ -246,11 +244,6 @@ class Therapy:
         if self._course is not None:
             self._course.interrupted = True
             self._journal.note(self._course.plan.id, "interrupted", f"the station died: {words}")
-
-
-def _check_game(name: str) -> None:
-    if name not in GAMES:
-        raise InputError(f"there is no game '{name}'", f"one of {', '.join(sorted(GAMES))}", "choose one of these")
 
 
 def _check_limits(form: SessionOpen, patient: Patient) -> None:

@@ -10,8 +10,10 @@ from alembic.migration import MigrationContext
 from sqlalchemy import inspect
 
 from db.account import Account, Role
+from db.clinical_score import ClinicalScoreForm
 from db.database import open_database
 from db.errors import CannotOpenError, NotStoredError, TooNewError
+from db.exercise import Exercise, PlayedExercise
 from db.limits import JointRange, PatientLimits
 from db.migrate import downgrade, upgrade
 from db.patient import PatientCreate, PatientUpdate
@@ -19,6 +21,8 @@ from db.queries import accounts, patients, sessions
 from db.sqlite import create_sqlite_engine
 from db.tables import METADATA
 from db.therapy_session import AllLimits, Event, LimitsSnapshot, Metric, SessionStatus, TherapySession
+
+REACH = (Exercise(game="reach", minutes=6.0, level=0.3),)
 
 
 @pytest.fixture
@@ -41,9 +45,7 @@ def enrol(session, name="Wang"):
 def begin(session, patient, **more):
     return sessions.add_session(
         session,
-        TherapySession(
-            patient_id=patient.id, therapist_id=1, affected_side="left", game="reach", seed=7, level=0.3, **more
-        ),
+        TherapySession(patient_id=patient.id, therapist_id=1, affected_side="left", exercises=REACH, seed=7, **more),
     )
 
 
@@ -89,6 +91,70 @@ def test_rows_from_before_get_cautious_limits_that_nobody_has_signed_for(path):
         (old,) = sessions.history_of(session, patient.id)
         assert (old.assistance, old.assist_level, old.limits.set_by) == ("passive", 1.0, "")
     database.close()
+
+
+OLD_SESSION = """
+INSERT INTO therapy_session (patient_id, therapist_id, affected_side, game, seed, level, started_at, status, limits,
+                             version, recording, measured, assistance, assist_level)
+VALUES (1, 1, 'left', 'reach', 7, 0.3, '2026-01-01', 'ended', '{"joints": []}', '0.1.0', '', 1, 'passive', 1.0)
+"""
+COUNTED = '{"hits": %d, "misses": 4, "score": 200, "level": 0.45}'
+
+
+def test_sessions_from_before_keep_their_game_its_level_and_what_was_counted(path):
+    upgrade(str(path), "0002")
+    with sqlite3.connect(path) as raw:
+        raw.execute("INSERT INTO account (name, created_at, role) VALUES ('lin', '2026-01-01', 'admin')")
+        raw.execute(
+            "INSERT INTO patient (name, healthy_side, notes, passive_range, force_limits, assistance, "
+            "assist_level_most, limits_set_by, created_by_id, created_at, updated_at) "
+            "VALUES ('Wang', 'right', '', '{}', '{}', 'passive', 1.0, '', 1, '2026-01-01', '2026-01-01')"
+        )
+        for _ in range(2):
+            raw.execute(OLD_SESSION)
+        for hits in (15, 16):
+            raw.execute(
+                "INSERT INTO event (session_id, t, kind, text, data) VALUES (2, '2026-01-01', 'score', 'hit', ?)",
+                (COUNTED % hits,),
+            )
+        raw.execute(
+            "INSERT INTO metric (session_id, name, joint, side, value, unit, label, caveat) "
+            "VALUES (2, 'time_engaged', '', '', 312.5, 's', '', '')"
+        )
+    raw.close()
+    database = open_database(path)
+    with database.session() as session:
+        counted, uncounted = sessions.history_of(session, 1)
+        assert counted.exercises == uncounted.exercises == REACH
+        assert counted.played == (
+            PlayedExercise(game="reach", played_s=312.5, score=200, hits=16, misses=4, level=0.45),
+        )
+        assert (uncounted.played, counted.notes, counted.workspace) == ((), "", None)
+    database.close()
+    downgrade(str(path), "0002")
+    with sqlite3.connect(path) as raw:
+        assert raw.execute("SELECT game, level FROM therapy_session").fetchall() == [("reach", 0.3)] * 2
+    raw.close()
+
+
+def test_the_level_last_reached_in_each_game_is_found(database):
+    with database.session() as session:
+        patient = enrol(session)
+        for game, level in (("reach", 0.2), ("reach", 0.5), ("trace", 0.1)):
+            played = PlayedExercise(game=game, played_s=60.0, score=1, hits=1, misses=0, level=level)
+            begin(session, patient, played=(played,))
+        begin(session, patient)
+        begin(session, enrol(session, "Li"), played=(played.model_copy(update={"level": 0.9}),))
+        assert sessions.levels_reached(session, patient.id) == {"reach": 0.5, "trace": 0.1}
+
+
+@pytest.mark.parametrize(("kind", "greatest"), [("fugl-meyer-ue", 66), ("arat", 57), ("box-and-block", 150)])
+def test_a_score_beyond_its_scale_is_refused(kind, greatest):
+    form = {"kind": kind, "side": "left", "on": "2026-03-01", "rater": "Lin"}
+    assert ClinicalScoreForm.model_validate({**form, "value": greatest}).value == greatest
+    for value in (greatest + 1, -1):
+        with pytest.raises(ValueError, match=r"scale|greater"):
+            ClinicalScoreForm.model_validate({**form, "value": value})
 
 
 def test_what_was_stored_is_there_after_opening_again(path):

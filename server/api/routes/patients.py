@@ -9,14 +9,14 @@ from db.patient import Patient, PatientCreate, PatientPublic, PatientUpdate
 from db.queries import patients, sessions
 from db.therapy_session import SessionDetail
 from fusion.errors import RefusedError
-from server.api.deps import AccountDep, SessionDep, TherapistDep
-from server.api.errors import answers, not_found
+from server.api.deps import AccountDep, PatientDep, SessionDep, TherapistDep
+from server.api.errors import answers
 
 router = APIRouter(prefix="/patients", tags=["patients"])
 
 
-@router.get("", responses=answers(401, 503))
-def list_patients(_: AccountDep, session: SessionDep) -> list[PatientPublic]:
+@router.get("", responses=answers(401, 403, 503))
+def list_patients(_: TherapistDep, session: SessionDep) -> list[PatientPublic]:
     """Every patient, by name."""
     return [_public(patient) for patient in patients.list_patients(session)]
 
@@ -33,22 +33,23 @@ def read_cautious_limits(_: AccountDep) -> PatientLimits:
     return PatientLimits()
 
 
-@router.get("/{patient_id}", responses=answers(401, 404, 422, 503))
-def read_patient(patient_id: int, _: AccountDep, session: SessionDep) -> PatientPublic:
+@router.get("/{patient_id}", responses=answers(401, 403, 404, 422, 503))
+def read_patient(patient: PatientDep) -> PatientPublic:
     """One patient."""
-    return _public(_existing(session, patient_id))
+    return _public(patient)
 
 
 @router.patch("/{patient_id}", responses=answers(401, 403, 404, 422, 503))
-def change_patient(patient_id: int, form: PatientUpdate, _: TherapistDep, session: SessionDep) -> PatientPublic:
+def change_patient(form: PatientUpdate, patient: PatientDep, session: SessionDep) -> PatientPublic:
     """Change what the form names; it holds from the next session on. Changed limits want a new signature."""
-    return _public(patients.change_patient(session, _existing(session, patient_id), form))
+    return _public(patients.change_patient(session, patient, form))
 
 
 @router.post("/{patient_id}/confirm-limits", responses=answers(401, 403, 404, 409, 422, 503))
-def confirm_limits(patient_id: int, seen: PatientLimits, account: TherapistDep, session: SessionDep) -> PatientPublic:
+def confirm_limits(
+    seen: PatientLimits, patient: PatientDep, account: TherapistDep, session: SessionDep
+) -> PatientPublic:
     """Sign for the patient's limits, as they were seen; without that no session can be opened."""
-    patient = _existing(session, patient_id)
     if seen != patient.limits:
         raise RefusedError(
             f"{patient.name}'s limits are not those that you have seen",
@@ -58,18 +59,10 @@ def confirm_limits(patient_id: int, seen: PatientLimits, account: TherapistDep, 
     return _public(patients.sign_limits(session, patient, account.name))
 
 
-@router.get("/{patient_id}/sessions", responses=answers(401, 404, 422, 503))
-def read_history(patient_id: int, _: AccountDep, session: SessionDep) -> list[SessionDetail]:
+@router.get("/{patient_id}/sessions", responses=answers(401, 403, 404, 422, 503))
+def read_history(patient: PatientDep, session: SessionDep) -> list[SessionDetail]:
     """The patient's sessions with their metrics, newest first."""
-    _existing(session, patient_id)
-    return sessions.history_of(session, patient_id)
-
-
-def _existing(session: SessionDep, patient_id: int) -> Patient:
-    patient = patients.find_patient(session, patient_id)
-    if patient is None:
-        raise not_found("patient", patient_id)
-    return patient
+    return sessions.history_of(session, patient.id or 0)
 
 
 def _public(patient: Patient) -> PatientPublic:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fastapi import APIRouter
 
 from db.queries import sessions
-from db.therapy_session import EventPublic, SessionDetail, SessionPublic
+from db.therapy_session import EventPublic, SessionDetail, SessionPublic, SessionUpdate
 from server.api.deps import AccountDep, ClientDep, ControlsDep, FiguresDep, SessionDep, TherapistDep, TherapyDep
 from server.api.errors import answers, not_found
 from server.api.forms import (
@@ -44,20 +44,30 @@ async def read_authority(_: AccountDep, controls: ControlsDep) -> AuthorityPubli
     return controls.authority()
 
 
-@router.get("/{session_id}", responses=answers(401, 404, 422, 503))
-def read_session(session_id: int, _: AccountDep, session: SessionDep) -> SessionDetail:
+@router.get("/{session_id}", responses=answers(401, 403, 404, 422, 503))
+def read_session(session_id: int, _: TherapistDep, session: SessionDep) -> SessionDetail:
     """A session with its metrics."""
     return _existing(session, session_id)
 
 
-@router.get("/{session_id}/curves", responses=answers(401, 404, 422, 503))
-async def read_curves(session_id: int, _: AccountDep, figures: FiguresDep) -> Curves:
+@router.patch("/{session_id}", responses=answers(401, 403, 404, 422, 503))
+def change_session(session_id: int, form: SessionUpdate, _: TherapistDep, session: SessionDep) -> SessionDetail:
+    """Note something about the session, or the pain afterwards; whatever is left out stays."""
+    found = sessions.find_session(session, session_id)
+    if found is None:
+        raise not_found("session", session_id)
+    sessions.change_session(session, found, form)
+    return _existing(session, session_id)
+
+
+@router.get("/{session_id}/curves", responses=answers(401, 403, 404, 422, 503))
+async def read_curves(session_id: int, _: TherapistDep, figures: FiguresDep) -> Curves:
     """The angles of both arms over the session."""
     return await figures.curves(session_id)
 
 
-@router.get("/{session_id}/events", responses=answers(401, 404, 422, 503))
-def read_events(session_id: int, _: AccountDep, session: SessionDep) -> list[EventPublic]:
+@router.get("/{session_id}/events", responses=answers(401, 403, 404, 422, 503))
+def read_events(session_id: int, _: TherapistDep, session: SessionDep) -> list[EventPublic]:
     """What happened in the session, in order."""
     _existing(session, session_id)
     return [EventPublic.model_validate(event) for event in sessions.events_of(session, session_id)]

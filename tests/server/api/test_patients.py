@@ -62,8 +62,17 @@ def test_sr10_the_patients_screen_neither_enrols_nor_signs(shared, new_patient):
             screen.patch(path, json={"notes": "x"}),
             screen.post("/api/patients", json={"name": "Bai", "healthy_side": "left"}),
         ]
-        assert screen.get(path).status_code == 200
     assert [answer.status_code for answer in answers] == [403, 403, 403]
+
+
+def test_the_patients_screen_reads_nobodys_records(shared, new_patient):
+    path = f"/api/patients/{new_patient('Hua')['id']}"
+    records = ["/api/patients", "/api/today", path]
+    records += [f"{path}/{part}" for part in ("sessions", "plan", "adherence", "scores")]
+    records += [f"/api/sessions/1{part}" for part in ("", "/curves", "/events")]
+    with shared.client(cookies={COOKIE: screen_log_in(shared.service)}) as screen:
+        assert {record: screen.get(record).status_code for record in records} == dict.fromkeys(records, 403)
+        assert screen.patch("/api/sessions/1", json={"notes": "x"}).status_code == 403
 
 
 def screen_log_in(service):

@@ -115,9 +115,11 @@ def test_the_wrong_side_is_refused_by_name(therapist, new_patient):
     ("form", "status"),
     [
         ({"patient_id": 999}, 404),
-        ({"game": "chess"}, 422),
+        ({"exercises": [{"game": "chess", "minutes": 6}]}, 422),
+        ({"exercises": [{"game": "reach", "minutes": 0}]}, 422),
+        ({"exercises": []}, 422),
         ({"pain_before": 11}, 422),
-        ({"level": 2}, 422),
+        ({"exercises": [{"game": "reach", "minutes": 6, "level": 2}]}, 422),
     ],
 )
 def test_a_session_that_cannot_be_is_refused(therapist, new_patient, form, status):

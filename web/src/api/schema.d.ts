@@ -172,6 +172,26 @@ export interface paths {
         patch: operations["change_patient_api_patients__patient_id__patch"];
         trace?: never;
     };
+    "/api/patients/{patient_id}/adherence": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Adherence
+         * @description What was done of what was planned in the last calendar weeks, this one included.
+         */
+        get: operations["read_adherence_api_patients__patient_id__adherence_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/patients/{patient_id}/confirm-limits": {
         parameters: {
             query?: never;
@@ -192,6 +212,74 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/patients/{patient_id}/plan": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Plan
+         * @description The patient's plan; 404 while there is none.
+         */
+        get: operations["read_plan_api_patients__patient_id__plan_get"];
+        /**
+         * Put Plan
+         * @description Plan, in place of what was planned before. Sessions are opened with it unless they say otherwise.
+         */
+        put: operations["put_plan_api_patients__patient_id__plan_put"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/patients/{patient_id}/scores": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Scores
+         * @description The patient's scores, in the order of their days.
+         */
+        get: operations["list_scores_api_patients__patient_id__scores_get"];
+        put?: never;
+        /**
+         * Add Score
+         * @description Enter a score.
+         */
+        post: operations["add_score_api_patients__patient_id__scores_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/patients/{patient_id}/scores/{number}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /**
+         * Remove Score
+         * @description Take back a score that was entered wrongly.
+         */
+        delete: operations["remove_score_api_patients__patient_id__scores__number__delete"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/patients/{patient_id}/sessions": {
         parameters: {
             query?: never;
@@ -204,6 +292,51 @@ export interface paths {
          * @description The patient's sessions with their metrics, newest first.
          */
         get: operations["read_history_api_patients__patient_id__sessions_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/replay": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Replay
+         * @description How the replay stands, or null: none has been asked for, nobody has looked for a minute, or a session is open.
+         */
+        get: operations["read_replay_api_replay_get"];
+        /**
+         * Play Again
+         * @description Show a past session at `/replay3d/`, or change how it runs. There is one replay for everybody who looks, and none
+         *     while a session is open: the machine is needed for the arm.
+         */
+        put: operations["play_again_api_replay_put"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/replay/timeline": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Timeline
+         * @description The states, hits, misses and calls of pain of the session that is shown, or null.
+         */
+        get: operations["read_timeline_api_replay_timeline_get"];
         put?: never;
         post?: never;
         delete?: never;
@@ -290,7 +423,11 @@ export interface paths {
         delete?: never;
         options?: never;
         head?: never;
-        patch?: never;
+        /**
+         * Change Session
+         * @description Note something about the session, or the pain afterwards; whatever is left out stays.
+         */
+        patch: operations["change_session_api_sessions__session_id__patch"];
         trace?: never;
     };
     "/api/sessions/{session_id}/assistance": {
@@ -519,6 +656,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/today": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Today
+         * @description Every patient with what the plan asks for today, those who are due first.
+         */
+        get: operations["read_today_api_today_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/view3d": {
         parameters: {
             query?: never;
@@ -567,6 +724,65 @@ export interface components {
             ack: number;
             /** @default null */
             drawn_on: components["schemas"]["Screen"] | null;
+        };
+        /**
+         * Adherence
+         * @description What was done of what was planned, in whole calendar weeks, oldest first.
+         * @example {
+         *       "days": [
+         *         {
+         *           "minutes": 11.5,
+         *           "on": "2026-03-02",
+         *           "repetitions": 84,
+         *           "sessions": 1
+         *         }
+         *       ],
+         *       "weeks": [
+         *         {
+         *           "done": 1,
+         *           "monday": "2026-03-02",
+         *           "planned": 3
+         *         }
+         *       ]
+         *     }
+         */
+        Adherence: {
+            /** Days */
+            days: components["schemas"]["AdherenceDay"][];
+            /** Weeks */
+            weeks: components["schemas"]["AdherenceWeek"][];
+        };
+        /**
+         * AdherenceDay
+         * @description What was done on a day.
+         */
+        AdherenceDay: {
+            /** Minutes */
+            minutes: number;
+            /**
+             * On
+             * Format: date
+             */
+            on: string;
+            /** Repetitions */
+            repetitions: number;
+            /** Sessions */
+            sessions: number;
+        };
+        /**
+         * AdherenceWeek
+         * @description A calendar week's sessions.
+         */
+        AdherenceWeek: {
+            /** Done */
+            done: number;
+            /**
+             * Monday
+             * Format: date
+             */
+            monday: string;
+            /** Planned */
+            planned: number;
         };
         /**
          * AllLimits
@@ -725,6 +941,107 @@ export interface components {
             state: number[];
         };
         /**
+         * ChoiceView
+         * @description A spot in space that is chosen by staying there.
+         */
+        ChoiceView: {
+            id: components["schemas"]["Wish"];
+            position: [
+                number,
+                number,
+                number
+            ];
+            progress: number;
+            radius_m: number;
+        };
+        /**
+         * ClinicalScoreForm
+         * @description What a person enters.
+         * @example {
+         *       "kind": "arat",
+         *       "note": "",
+         *       "on": "2026-03-02",
+         *       "rater": "Dr. Lin",
+         *       "side": "left",
+         *       "value": 31
+         *     }
+         */
+        ClinicalScoreForm: {
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "fugl-meyer-ue" | "arat" | "box-and-block";
+            /**
+             * Note
+             * @default
+             */
+            note: string;
+            /**
+             * On
+             * Format: date
+             * @description The day of the test.
+             */
+            on: string;
+            /** Rater */
+            rater: string;
+            /**
+             * Side
+             * @description The arm that was tested.
+             * @enum {string}
+             */
+            side: "left" | "right";
+            /**
+             * Value
+             * @description Fugl-Meyer UE 0 to 66, ARAT 0 to 57, Box and Block 0 to 150.
+             */
+            value: number;
+        };
+        /**
+         * ClinicalScorePublic
+         * @description A score as the browser sees it.
+         */
+        ClinicalScorePublic: {
+            /**
+             * Entered At
+             * Format: date-time
+             */
+            entered_at: string;
+            /** Entered By */
+            entered_by: string;
+            /** Id */
+            id: number;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "fugl-meyer-ue" | "arat" | "box-and-block";
+            /**
+             * Note
+             * @default
+             */
+            note: string;
+            /**
+             * On
+             * Format: date
+             * @description The day of the test.
+             */
+            on: string;
+            /** Rater */
+            rater: string;
+            /**
+             * Side
+             * @description The arm that was tested.
+             * @enum {string}
+             */
+            side: "left" | "right";
+            /**
+             * Value
+             * @description Fugl-Meyer UE 0 to 66, ARAT 0 to 57, Box and Block 0 to 150.
+             */
+            value: number;
+        };
+        /**
          * Control
          * @description What a person wants of the arm.
          * @example {
@@ -875,6 +1192,30 @@ export interface components {
             text: string;
         };
         /**
+         * Exercise
+         * @description What is to be played.
+         */
+        Exercise: {
+            /** Game */
+            game: string;
+            /**
+             * Level
+             * @description Difficulty at the start; null = what the patient last reached in it.
+             */
+            level?: number | null;
+            /**
+             * Minutes
+             * @description Of play; rests come on top.
+             */
+            minutes: number;
+            /**
+             * Pinned
+             * @description The difficulty stays as it began.
+             * @default false
+             */
+            pinned: boolean;
+        };
+        /**
          * ExoView
          * @description The exoskeleton: measured against commanded, per joint of `EXO_JOINTS`.
          */
@@ -963,6 +1304,18 @@ export interface components {
          * @description Everything a scene needs to draw one instant.
          */
         GameView: {
+            /** @default null */
+            aim: [
+                number,
+                number,
+                number
+            ] | null;
+            /** @default [] */
+            choices: components["schemas"]["ChoiceView"][];
+            /** @default 1 */
+            exercise: number;
+            /** @default 1 */
+            exercises: number;
             /** @default [] */
             feedback: string[];
             game: string;
@@ -974,13 +1327,29 @@ export interface components {
             hits: number;
             level: number;
             misses: number;
-            phase: string;
+            /** @default  */
+            next_game: string;
+            phase: components["schemas"]["Phase"];
+            /** @default false */
+            pinned: boolean;
+            /** @default  */
+            posture: string;
+            /** @default false */
+            rest_suggested: boolean;
             round: number;
             rounds: number;
             score: number;
             streak: number;
-            targets: components["schemas"]["TargetView"][];
+            things: components["schemas"]["ThingView"][];
             time_left_s: number;
+            /** @default 0 */
+            total_score: number;
+            /** @default [] */
+            way: [
+                number,
+                number,
+                number
+            ][];
         };
         /**
          * JointCurves
@@ -1038,6 +1407,22 @@ export interface components {
             max_rad: number;
             /** Min Rad */
             min_rad: number;
+        };
+        /**
+         * LastSession
+         * @description A patient's newest session in a line.
+         */
+        LastSession: {
+            /** Id */
+            id: number;
+            /** Minutes */
+            minutes: number;
+            /**
+             * Started At
+             * Format: date-time
+             */
+            started_at: string;
+            status: components["schemas"]["SessionStatus"];
         };
         /**
          * Latencies
@@ -1098,6 +1483,8 @@ export interface components {
             reason: string;
             sensors: components["schemas"]["SensorView"][];
             session: string;
+            /** @default 0 */
+            shoulder_hitch_m: number;
             state: components["schemas"]["DriveState"];
             t_newest_received_s: number | null;
             t_s: number;
@@ -1105,6 +1492,19 @@ export interface components {
             timing: components["schemas"]["Timing"];
             trunk_lean_m: number;
             warnings: string[];
+        };
+        /**
+         * Mark
+         * @description Something that happened at an instant.
+         */
+        Mark: {
+            /**
+             * Kind
+             * @description hit, missed or pain.
+             */
+            kind: string;
+            /** T S */
+            t_s: number;
         };
         /**
          * MeasuredRange
@@ -1117,6 +1517,14 @@ export interface components {
             range: components["schemas"]["PassiveRange"] | null;
             /** Ticks */
             ticks: number;
+        };
+        /**
+         * MeasuredWorkspace
+         * @description The workspace of a session's games, as joint ranges of the affected arm.
+         */
+        MeasuredWorkspace: {
+            shown: components["schemas"]["PassiveRange"];
+            used: components["schemas"]["PassiveRange"];
         };
         /**
          * MetricPublic
@@ -1143,6 +1551,11 @@ export interface components {
             label: string;
             /** Name */
             name: string;
+            /**
+             * Sem
+             * @description Standard error of the value within the session, if known.
+             */
+            sem?: number | null;
             /**
              * Side
              * @default
@@ -1439,6 +1852,59 @@ export interface components {
             updated_at: string;
         };
         /**
+         * PatientToday
+         * @description A patient on the list of today.
+         * @example {
+         *       "done_this_week": 1,
+         *       "due": true,
+         *       "healthy_side": "right",
+         *       "id": 1,
+         *       "last_session": {
+         *         "id": 12,
+         *         "minutes": 11.5,
+         *         "started_at": "2026-03-10T09:00:00Z",
+         *         "status": "ended"
+         *       },
+         *       "limits_signed": true,
+         *       "name": "Wang",
+         *       "plan": {
+         *         "exercises": [
+         *           {
+         *             "game": "reach",
+         *             "minutes": 6,
+         *             "pinned": false
+         *           }
+         *         ],
+         *         "minutes": 6,
+         *         "sessions_per_week": 3,
+         *         "week": 2,
+         *         "weeks": 4
+         *       },
+         *       "planned_this_week": 3
+         *     }
+         */
+        PatientToday: {
+            /** Done This Week */
+            done_this_week: number;
+            /** Due */
+            due: boolean;
+            /**
+             * Healthy Side
+             * @enum {string}
+             */
+            healthy_side: "left" | "right";
+            /** Id */
+            id: number;
+            last_session: components["schemas"]["LastSession"] | null;
+            /** Limits Signed */
+            limits_signed: boolean;
+            /** Name */
+            name: string;
+            plan: components["schemas"]["PlanInShort"] | null;
+            /** Planned This Week */
+            planned_this_week: number;
+        };
+        /**
          * PatientUpdate
          * @description What a therapist may change later; whatever is left out stays. Changed limits want a new signature.
          * @example {
@@ -1493,6 +1959,182 @@ export interface components {
             sensor: string;
         };
         /**
+         * Phase
+         * @description Where a game stands.
+         * @enum {unknown}
+         */
+        Phase: "between" | "over" | "paused" | "playing" | "rest" | "waiting";
+        /**
+         * PlanForm
+         * @description What a therapist plans.
+         * @example {
+         *       "exercises": [
+         *         {
+         *           "game": "reach",
+         *           "minutes": 6,
+         *           "pinned": false
+         *         }
+         *       ],
+         *       "note": "the elbow first",
+         *       "repetitions": 60,
+         *       "sessions_per_week": 3,
+         *       "starts_on": "2026-03-02",
+         *       "weeks": 4
+         *     }
+         */
+        PlanForm: {
+            /** Exercises */
+            exercises: components["schemas"]["Exercise"][];
+            /**
+             * Note
+             * @default
+             */
+            note: string;
+            /**
+             * Repetitions
+             * @description Attempts to aim for in a session, all games together; null = no aim.
+             */
+            repetitions?: number | null;
+            /** Sessions Per Week */
+            sessions_per_week: number;
+            /**
+             * Starts On
+             * Format: date
+             */
+            starts_on: string;
+            /** Weeks */
+            weeks: number;
+        };
+        /**
+         * PlanInShort
+         * @description A plan in a line.
+         */
+        PlanInShort: {
+            /** Exercises */
+            exercises: components["schemas"]["Exercise"][];
+            /** Minutes */
+            minutes: number;
+            /** Sessions Per Week */
+            sessions_per_week: number;
+            /**
+             * Week
+             * @description 1 = the first; 0 = not begun; more than `weeks` = over.
+             */
+            week: number;
+            /** Weeks */
+            weeks: number;
+        };
+        /**
+         * PlanPublic
+         * @description A plan as the browser sees it.
+         */
+        PlanPublic: {
+            /** Exercises */
+            exercises: components["schemas"]["Exercise"][];
+            /**
+             * Note
+             * @default
+             */
+            note: string;
+            /** Patient Id */
+            patient_id: number;
+            /**
+             * Repetitions
+             * @description Attempts to aim for in a session, all games together; null = no aim.
+             */
+            repetitions?: number | null;
+            /** Sessions Per Week */
+            sessions_per_week: number;
+            /**
+             * Starts On
+             * Format: date
+             */
+            starts_on: string;
+            /**
+             * Updated At
+             * Format: date-time
+             */
+            updated_at: string;
+            /** Updated By */
+            updated_by: string;
+            /** Weeks */
+            weeks: number;
+        };
+        /**
+         * PlayedExercise
+         * @description What has been played of an exercise.
+         */
+        PlayedExercise: {
+            /** Game */
+            game: string;
+            /** Hits */
+            hits: number;
+            /**
+             * Level
+             * @description Difficulty reached at its end.
+             */
+            level: number;
+            /** Misses */
+            misses: number;
+            /** Played S */
+            played_s: number;
+            /** Score */
+            score: number;
+        };
+        /**
+         * ReplayForm
+         * @description Which session is shown, and how it runs from now on.
+         * @example {
+         *       "playing": true,
+         *       "session_id": 7,
+         *       "speed": 0.5,
+         *       "t_s": 12.5
+         *     }
+         */
+        ReplayForm: {
+            /**
+             * Playing
+             * @default true
+             */
+            playing: boolean;
+            /** Session Id */
+            session_id: number;
+            /**
+             * Speed
+             * @description 1 = as it was.
+             * @default 1
+             */
+            speed: number;
+            /**
+             * T S
+             * @description Go there; null = go on from where it stands.
+             */
+            t_s?: number | null;
+        };
+        /**
+         * ReplayPublic
+         * @description How the replay stands.
+         * @example {
+         *       "duration_s": 362.4,
+         *       "playing": true,
+         *       "session_id": 7,
+         *       "speed": 0.5,
+         *       "t_s": 12.5
+         *     }
+         */
+        ReplayPublic: {
+            /** Duration S */
+            duration_s: number;
+            /** Playing */
+            playing: boolean;
+            /** Session Id */
+            session_id: number;
+            /** Speed */
+            speed: number;
+            /** T S */
+            t_s: number;
+        };
+        /**
          * Role
          * @description What an account is for.
          * @enum {string}
@@ -1534,7 +2176,7 @@ export interface components {
         };
         /**
          * SessionDetail
-         * @description A session with what it measured.
+         * @description A session with what it measured and what its therapist noted.
          */
         SessionDetail: {
             /**
@@ -1557,15 +2199,13 @@ export interface components {
             assistance: "passive" | "assisted" | "free";
             /** Ended At */
             ended_at?: string | null;
-            /** Game */
-            game: string;
+            /**
+             * Exercises
+             * @description As they began.
+             */
+            exercises: components["schemas"]["Exercise"][];
             /** Id */
             id: number;
-            /**
-             * Level
-             * @description Difficulty at the start, 0 to 1.
-             */
-            level: number;
             limits?: components["schemas"]["AllLimits"];
             /** Measured */
             measured: boolean;
@@ -1574,6 +2214,8 @@ export interface components {
              * @default []
              */
             metrics: components["schemas"]["MetricPublic"][];
+            /** Notes */
+            notes: string;
             /** Pain After */
             pain_after?: number | null;
             /** Pain Before */
@@ -1582,6 +2224,12 @@ export interface components {
             patient_id: number;
             /** Patient Name */
             patient_name: string;
+            /**
+             * Played
+             * @description What became of them.
+             * @default []
+             */
+            played: components["schemas"]["PlayedExercise"][];
             /** Seed */
             seed: number;
             /**
@@ -1599,6 +2247,8 @@ export interface components {
              * @default
              */
             version: string;
+            /** @description Null = the games had the limits to go by. */
+            workspace?: components["schemas"]["MeasuredWorkspace"] | null;
         };
         /**
          * SessionEnd
@@ -1616,8 +2266,14 @@ export interface components {
          * @description Opening a session; the affected side is said once more so that a slip is found before the arm moves.
          * @example {
          *       "confirmed_affected_side": "left",
-         *       "game": "reach",
-         *       "level": 0.3,
+         *       "exercises": [
+         *         {
+         *           "game": "reach",
+         *           "level": 0.3,
+         *           "minutes": 6,
+         *           "pinned": false
+         *         }
+         *       ],
          *       "pain_before": 2,
          *       "patient_id": 1
          *     }
@@ -1632,16 +2288,8 @@ export interface components {
              * @enum {string}
              */
             confirmed_affected_side: "left" | "right";
-            /**
-             * Game
-             * @default reach
-             */
-            game: string;
-            /**
-             * Level
-             * @default 0.3
-             */
-            level: number;
+            /** Exercises */
+            exercises?: components["schemas"]["Exercise"][] | null;
             /** Pain Before */
             pain_before?: number | null;
             /** Patient Id */
@@ -1678,15 +2326,13 @@ export interface components {
             assistance: "passive" | "assisted" | "free";
             /** Ended At */
             ended_at?: string | null;
-            /** Game */
-            game: string;
+            /**
+             * Exercises
+             * @description As they began.
+             */
+            exercises: components["schemas"]["Exercise"][];
             /** Id */
             id: number;
-            /**
-             * Level
-             * @description Difficulty at the start, 0 to 1.
-             */
-            level: number;
             limits?: components["schemas"]["AllLimits"];
             /** Measured */
             measured: boolean;
@@ -1698,6 +2344,12 @@ export interface components {
             patient_id: number;
             /** Patient Name */
             patient_name: string;
+            /**
+             * Played
+             * @description What became of them.
+             * @default []
+             */
+            played: components["schemas"]["PlayedExercise"][];
             /** Seed */
             seed: number;
             /**
@@ -1715,6 +2367,8 @@ export interface components {
              * @default
              */
             version: string;
+            /** @description Null = the games had the limits to go by. */
+            workspace?: components["schemas"]["MeasuredWorkspace"] | null;
         };
         /**
          * SessionStatus
@@ -1722,6 +2376,20 @@ export interface components {
          * @enum {string}
          */
         SessionStatus: "open" | "ended" | "interrupted";
+        /**
+         * SessionUpdate
+         * @description What a therapist may add during a session and afterwards; whatever is left out stays.
+         * @example {
+         *       "notes": "less trunk than last week",
+         *       "pain_after": 1
+         *     }
+         */
+        SessionUpdate: {
+            /** Notes */
+            notes?: string | null;
+            /** Pain After */
+            pain_after?: number | null;
+        };
         /**
          * SessionView
          * @description The open session in a line.
@@ -1743,6 +2411,17 @@ export interface components {
          * @enum {unknown}
          */
         Side: "left" | "right";
+        /**
+         * StateSpan
+         * @description The arm was in one state.
+         */
+        StateSpan: {
+            /** From S */
+            from_s: number;
+            state: components["schemas"]["DriveState"];
+            /** To S */
+            to_s: number;
+        };
         /**
          * Station
          * @description The real-time side.
@@ -1842,11 +2521,12 @@ export interface components {
             confirmed: boolean;
         };
         /**
-         * TargetView
-         * @description One target to draw.
+         * ThingView
+         * @description One thing to draw. What `kind` and `state` may be is said in the rules that make it.
          */
-        TargetView: {
+        ThingView: {
             id: number;
+            kind: string;
             position: [
                 number,
                 number,
@@ -1854,6 +2534,41 @@ export interface components {
             ];
             progress: number;
             radius_m: number;
+            /** @default  */
+            state: string;
+            /** @default 0 */
+            turn_rad: number;
+        };
+        /**
+         * Timeline
+         * @description What a replay's time line shows; seconds since the recording's first picture.
+         * @example {
+         *       "duration_s": 362.4,
+         *       "marks": [
+         *         {
+         *           "kind": "hit",
+         *           "t_s": 9.5
+         *         }
+         *       ],
+         *       "session_id": 7,
+         *       "spans": [
+         *         {
+         *           "from_s": 4,
+         *           "state": "engaged",
+         *           "to_s": 362.4
+         *         }
+         *       ]
+         *     }
+         */
+        Timeline: {
+            /** Duration S */
+            duration_s: number;
+            /** Marks */
+            marks: components["schemas"]["Mark"][];
+            /** Session Id */
+            session_id: number;
+            /** Spans */
+            spans: components["schemas"]["StateSpan"][];
         };
         /**
          * Timing
@@ -1906,6 +2621,12 @@ export interface components {
             /** Sensors */
             sensors: boolean;
         };
+        /**
+         * Wish
+         * @description What a person wants of the game.
+         * @enum {unknown}
+         */
+        Wish: "" | "adapt" | "go_on" | "next" | "pause" | "pin" | "quit" | "rest" | "start";
     };
     responses: never;
     parameters: never;
@@ -2152,6 +2873,15 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorResponse"];
                 };
             };
+            /** @description Not allowed from here, or not for this account */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
             /** @description Something this machine must provide is missing */
             503: {
                 headers: {
@@ -2290,6 +3020,15 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorResponse"];
                 };
             };
+            /** @description Not allowed from here, or not for this account */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
             /** @description There is no such thing */
             404: {
                 headers: {
@@ -2341,6 +3080,75 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["PatientPublic"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Not allowed from here, or not for this account */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description There is no such thing */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description The form is filled in wrongly */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
+    read_adherence_api_patients__patient_id__adherence_get: {
+        parameters: {
+            query?: {
+                weeks?: number;
+            };
+            header?: never;
+            path: {
+                patient_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Adherence"];
                 };
             };
             /** @description Nobody is logged in */
@@ -2470,6 +3278,348 @@ export interface operations {
             };
         };
     };
+    read_plan_api_patients__patient_id__plan_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                patient_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PlanPublic"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Not allowed from here, or not for this account */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description There is no such thing */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description The form is filled in wrongly */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
+    put_plan_api_patients__patient_id__plan_put: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                patient_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["PlanForm"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PlanPublic"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Not allowed from here, or not for this account */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description There is no such thing */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description The form is filled in wrongly */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
+    list_scores_api_patients__patient_id__scores_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                patient_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ClinicalScorePublic"][];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Not allowed from here, or not for this account */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description There is no such thing */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description The form is filled in wrongly */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
+    add_score_api_patients__patient_id__scores_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                patient_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ClinicalScoreForm"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ClinicalScorePublic"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Not allowed from here, or not for this account */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description There is no such thing */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description The form is filled in wrongly */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
+    remove_score_api_patients__patient_id__scores__number__delete: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                number: number;
+                patient_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Not allowed from here, or not for this account */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description There is no such thing */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description The form is filled in wrongly */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
     read_history_api_patients__patient_id__sessions_get: {
         parameters: {
             query?: never;
@@ -2499,6 +3649,15 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorResponse"];
                 };
             };
+            /** @description Not allowed from here, or not for this account */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
             /** @description There is no such thing */
             404: {
                 headers: {
@@ -2510,6 +3669,160 @@ export interface operations {
             };
             /** @description The form is filled in wrongly */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
+    read_replay_api_replay_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ReplayPublic"] | null;
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
+    play_again_api_replay_put: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ReplayForm"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ReplayPublic"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Not allowed from here, or not for this account */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description There is no such thing */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Refused in the present state; the reason is in the detail */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description The form is filled in wrongly */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
+    read_timeline_api_replay_timeline_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Timeline"] | null;
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -2707,6 +4020,86 @@ export interface operations {
             };
             /** @description Nobody is logged in */
             401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Not allowed from here, or not for this account */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description There is no such thing */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description The form is filled in wrongly */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
+    change_session_api_sessions__session_id__patch: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                session_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SessionUpdate"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionDetail"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Not allowed from here, or not for this account */
+            403: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -3003,6 +4396,15 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorResponse"];
                 };
             };
+            /** @description Not allowed from here, or not for this account */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
             /** @description There is no such thing */
             404: {
                 headers: {
@@ -3128,6 +4530,15 @@ export interface operations {
             };
             /** @description Nobody is logged in */
             401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Not allowed from here, or not for this account */
+            403: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -3489,6 +4900,53 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Status"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
+    read_today_api_today_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PatientToday"][];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Not allowed from here, or not for this account */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
                 };
             };
             /** @description Something this machine must provide is missing */

@@ -13,6 +13,7 @@ import { SideQuestion } from "./side-question";
 
 /** The one game so far; where there are several, this page is where one is chosen. */
 const GAME = "reach";
+const MINUTES = 6;
 
 const LEVELS = [
   { id: "gentle", level: 0.1 },
@@ -46,8 +47,7 @@ function Prepare({ patient }: { patient: Patient }) {
         patient_id: patient.id,
         confirmed_affected_side: side,
         pain_before: pain,
-        level,
-        game: GAME,
+        exercises: [{ game: GAME, minutes: MINUTES, level, pinned: false }],
         assistance,
         assist_level: help,
       });

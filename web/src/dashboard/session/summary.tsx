@@ -38,7 +38,7 @@ function Head({ session }: { session: SessionDetail }) {
     [t("history.when"), dateAndTime(session.started_at)],
     [t("history.duration"), length === null ? "–" : duration(length)],
     [t("summary.affected"), t(`side.${session.affected_side}`)],
-    [t("summary.game"), gameName(session.game)],
+    [t("summary.game"), session.exercises.map(({ game }) => gameName(game)).join(", ")],
     [t("history.pain"), `${figure(session.pain_before)} → ${figure(session.pain_after)}`],
     [t("summary.therapist"), session.therapist_name],
   ] as const;
