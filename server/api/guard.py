@@ -17,7 +17,8 @@ from starlette.websockets import WebSocket
 
 from server.api.errors import as_response
 
-VIEW3D = "/view3d"
+VIEW3D, REPLAY3D = "/view3d", "/replay3d"
+"""Below these addresses viser's own pages come through: the live view, and a past session's."""
 _SAFE_METHODS = frozenset({"GET", "HEAD", "OPTIONS"})
 
 _OWN_PAGES = (
@@ -110,8 +111,8 @@ def _with_headers(scope: Scope, send: Send) -> Send:
 
 
 def _add_headers(headers: MutableHeaders, path: str) -> None:
-    inside_view3d = path == VIEW3D or path.startswith(f"{VIEW3D}/")
-    headers["Content-Security-Policy"] = _VIEW3D_PAGE if inside_view3d else _OWN_PAGES
+    is_visers = any(path == view or path.startswith(f"{view}/") for view in (VIEW3D, REPLAY3D))
+    headers["Content-Security-Policy"] = _VIEW3D_PAGE if is_visers else _OWN_PAGES
     headers["X-Content-Type-Options"] = "nosniff"
     headers["X-Frame-Options"] = "SAMEORIGIN"
     headers["Referrer-Policy"] = "same-origin"

@@ -1,7 +1,8 @@
-"""Lets logged-in pages through to viser: plain requests and its one WebSocket."""
+"""Lets logged-in pages through to viser, the live view's and the replay's: plain requests and its one WebSocket."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from contextlib import suppress
 
 import httpx
@@ -12,8 +13,9 @@ from websockets.exceptions import ConnectionClosed, InvalidHandshake
 from websockets.typing import Subprotocol
 
 from server.api.deps import AccountDep, ServiceDep
-from server.api.guard import VIEW3D
+from server.api.guard import REPLAY3D, VIEW3D
 from server.api.race import until_first_ends
+from server.api.service import Service
 from server.api.socket_gate import admit, watch_log_in
 
 router = APIRouter(include_in_schema=False)
@@ -27,16 +29,36 @@ _QUIET = b"""<style>
 </style></head>"""
 
 
-@router.get(VIEW3D)
-async def without_slash(_: AccountDep) -> RedirectResponse:
-    """Viser's page finds its socket relative to the address with the slash."""
-    return RedirectResponse(f"{VIEW3D}/")
+def _let_through(prefix: str, port_of: Callable[[Service], int]) -> None:
+    """Routes below `prefix` to the viser that listens on a port of the loopback address; 0 = it is closed."""
+
+    @router.get(prefix)
+    async def without_slash(_: AccountDep) -> RedirectResponse:
+        """Viser's page finds its socket relative to the address with the slash."""
+        return RedirectResponse(f"{prefix}/")
+
+    @router.get(prefix + "/{path:path}")
+    async def page(path: str, _: AccountDep, service: ServiceDep) -> Response:
+        return await _page(port_of(service), path)
+
+    # viser's page opens its socket at the prefix itself, without a slash.
+    @router.websocket(prefix)
+    @router.websocket(prefix + "/{path:path}")
+    async def socket(socket: WebSocket, path: str = "") -> None:
+        """Viser's socket, both ways, while the log-in lasts."""
+        admitted = await admit(socket)
+        if admitted is not None:
+            service, _ = admitted
+            await _join(socket, service, port_of(service))
 
 
-@router.get(VIEW3D + "/{path:path}")
-async def page(path: str, _: AccountDep, service: ServiceDep) -> Response:
+_let_through(VIEW3D, lambda service: service.view3d.port)
+_let_through(REPLAY3D, lambda service: service.replay.port)
+
+
+async def _page(port: int, path: str) -> Response:
     """Viser's own page, without its panel."""
-    async with httpx.AsyncClient(base_url=f"http://127.0.0.1:{service.view3d.port}", trust_env=False) as client:
+    async with httpx.AsyncClient(base_url=f"http://127.0.0.1:{port}", trust_env=False) as client:
         try:
             answer = await client.get(f"/{path}")
         except httpx.HTTPError as error:
@@ -45,19 +67,15 @@ async def page(path: str, _: AccountDep, service: ServiceDep) -> Response:
     return Response(answer.content.replace(b"</head>", _QUIET, 1), answer.status_code, headers)
 
 
-# viser's page opens its socket at the prefix itself, without a slash.
-@router.websocket(VIEW3D)
-@router.websocket(VIEW3D + "/{path:path}")
-async def socket(socket: WebSocket, path: str = "") -> None:
-    """Viser's socket, both ways, while the log-in lasts."""
-    admitted = await admit(socket)
-    if admitted is None:
+async def _join(page_end: WebSocket, service: Service, port: int) -> None:
+    if not port:
+        await page_end.accept()  # closed before that, a page would take it for a refused log-in
+        await page_end.close(1001, "nothing is shown")
         return
-    service, _ = admitted
-    asked = [Subprotocol(name) for name in socket.scope.get("subprotocols", [])]
+    asked = [Subprotocol(name) for name in page_end.scope.get("subprotocols", [])]
     # Without limits of our own: pictures are large, and both ends are ours.
     opening = connect(
-        f"ws://127.0.0.1:{service.view3d.port}/",
+        f"ws://127.0.0.1:{port}/",
         subprotocols=asked or None,
         compression=None,
         max_size=None,
@@ -65,13 +83,13 @@ async def socket(socket: WebSocket, path: str = "") -> None:
     )
     try:
         async with opening as viser_end:
-            await socket.accept(subprotocol=viser_end.subprotocol)
+            await page_end.accept(subprotocol=viser_end.subprotocol)
             with suppress(WebSocketDisconnect, ConnectionClosed):
                 await until_first_ends(
-                    _to_viser(socket, viser_end), _to_page(viser_end, socket), watch_log_in(socket, service)
+                    _to_viser(page_end, viser_end), _to_page(viser_end, page_end), watch_log_in(page_end, service)
                 )
     except (OSError, InvalidHandshake):
-        await socket.close(1011, "the 3-D view does not answer")
+        await page_end.close(1011, "the 3-D view does not answer")
 
 
 async def _to_viser(page_end: WebSocket, viser_end: ClientConnection) -> None:

@@ -24,6 +24,7 @@ from server.api.latency import LatencyMeter
 from server.api.limits import snapshots
 from server.api.recover import close_left_open, measure_all
 from server.api.relay import Relay
+from server.api.replay3d import Replay
 from server.api.station_link import StationLink
 from server.api.therapy import Therapy
 from server.api.view3d import View3D
@@ -50,6 +51,7 @@ class Service:
     latency: LatencyMeter
     relay: Relay
     view3d: View3D
+    replay: Replay
 
 
 @asynccontextmanager
@@ -81,6 +83,8 @@ async def running_service(
         stack.push_async_callback(journal.close)
         view3d.start()
         stack.push_async_callback(view3d.close)
+        replay = Replay(data, database, lambda: therapy.is_open)
+        stack.push_async_callback(replay.close)
         link.on_tick.append(relay.take)
         stack.push_async_callback(link.close)
         await until_station_is_gone(data)
@@ -90,7 +94,9 @@ async def running_service(
         recovery = asyncio.create_task(measure_all(figures, left), name="recovery")
         stack.callback(recovery.cancel)
         demo = Demo(database, auth, config.demo and config.station.exoskeleton.drive == SIMULATED)
-        yield Service(config, database, auth, demo, link, presence, therapy, controls, figures, latency, relay, view3d)
+        yield Service(
+            config, database, auth, demo, link, presence, therapy, controls, figures, latency, relay, view3d, replay
+        )
 
 
 def describe_station(service: Service) -> Station:

@@ -10,6 +10,7 @@ from io import StringIO
 import viser
 
 from server.api.newest import FanOut
+from server.api.view3d_picture import Picture, picture_of
 from server.api.view3d_scene import Scene, Shown
 from server.messages import LiveTick
 
@@ -36,11 +37,8 @@ class View3D:
 
     def start(self) -> None:
         """Open the server and begin to draw."""
-        # viser listens on every address unless told otherwise, and asks nobody for a log-in.
-        with redirect_stdout(StringIO()):  # it prints its own address, which nobody may use
-            self._server = _OnlyHere(host="127.0.0.1", port=0, label="mirrorlimb", verbose=False)
+        self._server = open_viser()
         self.port = self._server.get_port()
-        _place_camera(self._server)
         self._task = asyncio.create_task(self._draw(self._server, Scene(self._server)))
 
     async def close(self) -> None:
@@ -49,16 +47,30 @@ class View3D:
             self._task.cancel()
             await asyncio.gather(self._task, return_exceptions=True)
         if self._server is not None:
-            with redirect_stdout(StringIO()):
-                await asyncio.to_thread(self._server.stop)
+            await asyncio.to_thread(close_viser, self._server)
 
     async def _draw(self, server: viser.ViserServer, scene: Scene) -> None:
         with self._ticks.reading() as box:
             while True:
                 tick = await box.take()
                 if server.get_clients():
-                    _show(server, scene, tick, self.shown)
+                    show(server, scene, picture_of(tick), self.shown)
                 await asyncio.sleep(PERIOD_S)
+
+
+def open_viser() -> viser.ViserServer:
+    """A server on a free port of the loopback address, looking at the person. It may be called in any thread."""
+    # viser listens on every address unless told otherwise, and asks nobody for a log-in.
+    with redirect_stdout(StringIO()):  # it prints its own address, which nobody may use
+        server = _OnlyHere(host="127.0.0.1", port=0, label="mirrorlimb", verbose=False)
+    _place_camera(server)
+    return server
+
+
+def close_viser(server: viser.ViserServer) -> None:
+    """End it; waits for its thread."""
+    with redirect_stdout(StringIO()):
+        server.stop()
 
 
 class _OnlyHere(viser.ViserServer):
@@ -68,12 +80,13 @@ class _OnlyHere(viser.ViserServer):
         return None
 
 
-def _show(server: viser.ViserServer, scene: Scene, tick: LiveTick, shown: Shown) -> None:
+def show(server: viser.ViserServer, scene: Scene, picture: Picture, shown: Shown) -> None:
+    """Draw, so that no page sees half of it; what cannot be drawn is logged, and the next picture tried."""
     try:
         with server.atomic():
-            scene.show(tick, shown)
+            scene.show(picture, shown)
     except Exception:
-        log.exception("a tick could not be drawn")
+        log.exception("a picture could not be drawn")
 
 
 def _place_camera(server: viser.ViserServer) -> None:

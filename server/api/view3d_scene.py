@@ -9,9 +9,9 @@ import numpy as np
 import trimesh.creation
 import viser
 
-from fusion.skeleton import BONE_INDICES, JOINT_COUNT
-from server.api.view3d_shapes import Array, Placement, as_array, facing, place_balls, place_bones, place_bounds
-from server.messages import ArmView, LiveTick, SensorView
+from fusion.skeleton import BONE_INDICES
+from server.api.view3d_picture import NO_ARM, NOWHERE, Picture, SensorPicture
+from server.api.view3d_shapes import Array, Placement, facing, place_balls, place_bones, place_bounds
 
 Colour = tuple[int, int, int]
 
@@ -27,8 +27,6 @@ FUSED_M, SENSOR_M, EXO_M, MIRRORED_M = 0.016, 0.011, 0.03, 0.05
 """Radii. The arm that is to be followed is a wide, pale sleeve round the exoskeleton's while both agree."""
 
 ARM_BONES = np.array([(0, 1), (1, 2), (2, 3)])
-NOWHERE = np.full((JOINT_COUNT, 3), np.nan, np.float32)
-NO_ARM = np.full((4, 3), np.nan, np.float32)
 
 _CYLINDER = trimesh.creation.cylinder(radius=1.0, height=1.0, sections=8)
 _BALL = trimesh.creation.icosphere(subdivisions=2, radius=1.0)
@@ -80,16 +78,15 @@ class _SensorFigure:
         )
         self._label = scene.add_label(f"{root}/camera/name", name)
 
-    def show(self, sensor: SensorView, visible: bool) -> None:
-        joints = as_array(sensor.joints_in_room) if sensor.joints_in_room else NOWHERE
+    def show(self, seen: SensorPicture, visible: bool) -> None:
         self._bones.handle.visible = self._joints.handle.visible = visible
-        self._bones.move(place_bones(joints, BONE_INDICES, SENSOR_M))
-        self._joints.move(place_balls(joints, 2 * SENSOR_M))
-        self._camera.visible = visible and sensor.position_in_room is not None
-        if sensor.position_in_room is not None and np.isfinite(joints).any():
-            position = np.array(sensor.position_in_room, np.float32)
-            self._camera.position = position
-            self._camera.wxyz = facing(position, np.nanmean(joints, axis=0))
+        self._bones.move(place_bones(seen.joints, BONE_INDICES, SENSOR_M))
+        self._joints.move(place_balls(seen.joints, 2 * SENSOR_M))
+        is_placed = bool(np.isfinite(seen.position).all())
+        self._camera.visible = visible and is_placed
+        if is_placed and np.isfinite(seen.joints).any():
+            self._camera.position = seen.position
+            self._camera.wxyz = facing(seen.position, np.nanmean(seen.joints, axis=0))
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,27 +115,26 @@ class Scene:
         self._exo = _Batch(scene, "/exoskeleton", _CYLINDER, place_bones(NO_ARM, ARM_BONES, EXO_M), EXO)
         self._sensors: dict[str, _SensorFigure] = {}
 
-    def show(self, tick: LiveTick, shown: Shown) -> None:
-        """Move everything to where the tick says. Call it inside `atomic()`, so that no page sees half of it."""
-        for number, sensor in enumerate(tick.sensors):
-            self._figure(number, sensor.sensor).show(sensor, shown.sensors)
-        joints = NOWHERE if tick.body is None else as_array(tick.body.joints_in_room)
-        self._bones.move(place_bones(joints, BONE_INDICES, FUSED_M))
-        self._joints.move(place_balls(joints, 1.5 * FUSED_M))
-        self._show_bounds(tick, joints, shown.bounds)
-        self._mirrored.move(place_bones(_points(tick.target), ARM_BONES, MIRRORED_M))
-        self._exo.move(place_bones(_points(tick.affected), ARM_BONES, EXO_M))
-        self._lay_floor(joints)
+    def show(self, picture: Picture, shown: Shown) -> None:
+        """Move everything to where it is. Call it inside `atomic()`, so that no page sees half of it."""
+        for number, seen in enumerate(picture.sensors):
+            self._figure(number, seen.sensor).show(seen, shown.sensors)
+        self._bones.move(place_bones(picture.body, BONE_INDICES, FUSED_M))
+        self._joints.move(place_balls(picture.body, 1.5 * FUSED_M))
+        self._show_bounds(picture, shown.bounds)
+        self._mirrored.move(place_bones(picture.mirrored, ARM_BONES, MIRRORED_M))
+        self._exo.move(place_bones(picture.exo, ARM_BONES, EXO_M))
+        self._lay_floor(picture.body)
 
     def _figure(self, number: int, sensor: str) -> _SensorFigure:
         if sensor not in self._sensors:
             self._sensors[sensor] = _SensorFigure(self._scene, number, sensor)
         return self._sensors[sensor]
 
-    def _show_bounds(self, tick: LiveTick, joints: Array, visible: bool) -> None:
+    def _show_bounds(self, picture: Picture, visible: bool) -> None:
         self._bounds.handle.visible = visible
-        if visible and tick.body is not None:
-            self._bounds.move(place_bounds(joints, tick.body.shape_m2))
+        if visible and picture.shape_m2:
+            self._bounds.move(place_bounds(picture.body, picture.shape_m2))
 
     def _lay_floor(self, joints: Array) -> None:
         """Under the lowest joint ever seen: no sensor tells where the floor is."""
@@ -147,7 +143,3 @@ class Scene:
             x, y, z = self._floor.position
             if lowest < y:
                 self._floor.position = (x, lowest, z)
-
-
-def _points(arm: ArmView | None) -> Array:
-    return NO_ARM if arm is None or not arm.valid or arm.points_in_room is None else as_array(arm.points_in_room)

@@ -7,8 +7,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import httpx
+import msgspec
 import pytest
 import uvicorn
+import zstandard
+from websockets.sync.client import connect
 
 from server.api.app import create_app
 from server.api.auth import COOKIE, AuthSettings
@@ -138,3 +141,60 @@ def enrol(sign):
 def new_patient(therapist, enrol):
     """Enrols a patient with the shared service."""
     return lambda name="Wang", **more: enrol(therapist, name, **more)
+
+
+CAMERA = {
+    "type": "ViewerCameraMessage",
+    "wxyz": (1.0, 0.0, 0.0, 0.0),
+    "position": (0.0, 0.0, 0.0),
+    "fov": 1.0,
+    "near": 0.1,
+    "far": 10.0,
+    "image_height": 480,
+    "image_width": 640,
+    "look_at": (0.0, 0.0, 1.0),
+    "up_direction": (0.0, 1.0, 0.0),
+}
+"""viser counts a page as one of its own once it has said where it looks from."""
+
+
+class VisersPage:
+    """The socket of viser's page, through our door."""
+
+    def __init__(self, socket):
+        self.socket = socket
+
+    def look(self):
+        self.socket.send(msgspec.msgpack.encode(CAMERA))
+
+    def wait_until_moved(self, names):
+        """Until all of these things have been put somewhere else."""
+        moved = set()
+        while not names <= moved:
+            updates = [m for m in _inside(self.socket.recv(timeout=20)) if "batched_positions" in m.get("updates", {})]
+            moved |= {message["name"] for message in updates}
+
+
+def _inside(window):
+    """The messages in one of viser's windows: two lengths, then compressed msgpack, then plain arrays."""
+    length = int.from_bytes(window[8:16], "little")
+    return msgspec.msgpack.decode(zstandard.decompress(window[16 : 16 + length]))["messages"]
+
+
+@pytest.fixture
+def visers_page():
+    """Opens viser's socket at a path, for somebody who is logged in."""
+
+    @contextmanager
+    def opened(service, client, path):
+        with connect(
+            f"{service.ws_url}{path}",
+            additional_headers={"Cookie": f"{COOKIE}={client.cookies[COOKIE]}"},
+            origin=service.url,
+            subprotocols=["viser-v1.1.1"],
+            max_size=None,
+            compression=None,
+        ) as socket:
+            yield VisersPage(socket)
+
+    return opened

@@ -4,13 +4,10 @@ import msgspec
 import numpy as np
 import psutil
 import pytest
-import zstandard
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
-from websockets.sync.client import connect
 
-from server.api.auth import COOKIE
 from server.api.view3d_shapes import HIDDEN, as_array, facing, place_balls, place_bones, place_bounds
 
 coordinates = st.floats(-5, 5, width=32)
@@ -69,40 +66,6 @@ def test_a_sensors_figure_looks_at_the_person():
 # ---------------------------------------------------------------- behind the door
 
 
-CAMERA = {
-    "type": "ViewerCameraMessage",
-    "wxyz": (1.0, 0.0, 0.0, 0.0),
-    "position": (0.0, 0.0, 0.0),
-    "fov": 1.0,
-    "near": 0.1,
-    "far": 10.0,
-    "image_height": 480,
-    "image_width": 640,
-    "look_at": (0.0, 0.0, 1.0),
-    "up_direction": (0.0, 1.0, 0.0),
-}
-"""viser counts a page as one of its own once it has said where it looks from."""
-
-
-def inside(window):
-    """The messages in one of viser's windows: two lengths, then compressed msgpack, then plain arrays."""
-    length = int.from_bytes(window[8:16], "little")
-    return msgspec.msgpack.decode(zstandard.decompress(window[16 : 16 + length]))["messages"]
-
-
-def viser_socket(shared, therapist, path="/view3d"):
-    headers = {"Cookie": f"{COOKIE}={therapist.cookies[COOKIE]}"}
-    url = f"{shared.ws_url}{path}"
-    return connect(
-        url,
-        additional_headers=headers,
-        origin=shared.url,
-        subprotocols=["viser-v1.1.1"],
-        max_size=None,
-        compression=None,
-    )
-
-
 def test_visers_page_comes_through_with_rules_of_its_own(therapist):
     page = therapist.get("/view3d/")
     assert page.status_code == 200
@@ -121,25 +84,21 @@ def test_a_person_chooses_what_the_view_shows(shared, therapist):
 
 
 @pytest.mark.parametrize("path", ["/view3d", "/view3d/"])
-def test_visers_socket_comes_through_and_the_scene_moves(shared, therapist, path):
-    with viser_socket(shared, therapist, path) as socket:
-        assert socket.subprotocol == "viser-v1.1.1"
-        socket.send(msgspec.msgpack.encode(CAMERA))
-        moved = set()
-        while not {"/fused/bones", "/fused/joints", "/exoskeleton", "/sensors/0/bones"} <= moved:
-            for message in inside(socket.recv(timeout=20)):
-                if "batched_positions" in message.get("updates", {}):
-                    moved.add(message["name"])
+def test_visers_socket_comes_through_and_the_scene_moves(shared, therapist, visers_page, path):
+    with visers_page(shared, therapist, path) as page:
+        assert page.socket.subprotocol == "viser-v1.1.1"
+        page.look()
+        page.wait_until_moved({"/fused/bones", "/fused/joints", "/exoskeleton", "/sensors/0/bones"})
 
 
-def test_nobody_opens_a_public_tunnel_through_the_view(shared, therapist, monkeypatch):
+def test_nobody_opens_a_public_tunnel_through_the_view(shared, therapist, visers_page, monkeypatch):
     asked = []
     monkeypatch.setattr("viser._viser.ViserTunnel", lambda *_, **__: asked.append(True))
-    with viser_socket(shared, therapist) as socket:
-        socket.send(msgspec.msgpack.encode({"type": "ShareUrlRequest"}))
-        socket.send(msgspec.msgpack.encode(CAMERA))
+    with visers_page(shared, therapist, "/view3d") as page:
+        page.socket.send(msgspec.msgpack.encode({"type": "ShareUrlRequest"}))
+        page.look()
         while not shared.service.view3d._server.get_clients():
-            socket.recv(timeout=20)
+            page.socket.recv(timeout=20)
     assert asked == []
 
 
