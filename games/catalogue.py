@@ -6,13 +6,14 @@ from collections.abc import Mapping
 from typing import Final
 
 from fusion.errors import InputError
-from games import reach
+from games import reach, trace
 from games.game import GameSettings, Workspace
 from games.play import Play
 from games.rules import RulesFactory
 
 GAMES: Final[Mapping[str, RulesFactory]] = {
     reach.NAME: reach.ReachRules,
+    trace.NAME: trace.TraceRules,
 }
 
 
