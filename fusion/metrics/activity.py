@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from fusion.metrics.metric import Metric
+from fusion.metrics.metric import ADAPTED, Metric
 from fusion.metrics.reaches import session_movements
 from fusion.metrics.record import SessionRecord
+from fusion.metrics.uncertainty import share_sem
 
 
 def activity_metrics(record: SessionRecord) -> list[Metric]:
@@ -25,10 +26,12 @@ def _active(record: SessionRecord) -> list[Metric]:
 
 
 def _targets(record: SessionRecord) -> list[Metric]:
-    if record.hits + record.misses == 0:
+    tries = record.hits + record.misses
+    if tries == 0:
         return []
+    sem = share_sem(record.hits, tries)
     return [
         Metric("targets_collected", float(record.hits), "1"),
         Metric("targets_missed", float(record.misses), "1"),
-        Metric("success_rate", record.hits / (record.hits + record.misses), "1"),
+        Metric("success_rate", record.hits / tries, "1", caveat_key=ADAPTED, sem=sem),
     ]

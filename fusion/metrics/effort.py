@@ -8,14 +8,16 @@ import numpy as np
 
 from fusion.messages import Flags, Floats
 from fusion.metrics.metric import CARRIED_WEIGHT, ESTIMATED_TORQUE, Metric
-from fusion.metrics.range_of_movement import ENOUGH, angle_range, told
+from fusion.metrics.range_of_movement import ENOUGH, RangeNames, joint_range, told
 from fusion.metrics.record import JOINTS, DriveTrack, SessionRecord
+from fusion.metrics.uncertainty import batch_sem
 
 MOVING_RAD_S: Final = 0.05
 """A slower joint has no direction that an effort could go along with."""
 PEAK_PERCENT: Final = 95.0
 MODES: Final = ("passive", "assisted", "free")
 FREE: Final = "free"
+OWN_RANGE: Final[RangeNames] = ("own_range_lowest", "own_range_highest", "own_range")
 SOFT_HOLD_S: Final = 0.5
 """A hold that has not become firm by then is meant to be soft."""
 
@@ -59,9 +61,7 @@ def _own_range(record: SessionRecord, drive: DriveTrack) -> list[Metric]:
         sample = record.affected_rad[free & told(record.affected_rad, joint), column]
         if len(sample) < ENOUGH:
             continue
-        low, high = angle_range(sample)
-        named = (("own_range_lowest", low), ("own_range_highest", high), ("own_range", high - low))
-        found += [Metric(name, value, "rad", joint, record.healthy_side.other) for name, value in named]
+        found += joint_range(OWN_RANGE, sample, joint, record.healthy_side.other, None)
     return found
 
 
@@ -74,29 +74,51 @@ def _own_effort(record: SessionRecord, drive: DriveTrack) -> list[Metric]:
         if np.count_nonzero(moving) < ENOUGH:
             continue
         along_nm = np.maximum(drive.interaction_nm[moving, column] * np.sign(speed[moving]), 0.0)
-        named = (("own_effort", along_nm.mean()), ("own_effort_p95", np.percentile(along_nm, PEAK_PERCENT)))
         side = record.healthy_side.other
-        found += [Metric(name, float(value), "N m", joint, side, ESTIMATED_TORQUE) for name, value in named]
+        found += [
+            Metric(name, of(along_nm), "N m", joint, side, ESTIMATED_TORQUE, batch_sem(along_nm, of))
+            for name, of in (("own_effort", _mean), ("own_effort_p95", _peak))
+        ]
     return found
+
+
+def _mean(sample: Floats) -> float:
+    return float(sample.mean())
+
+
+def _peak(sample: Floats) -> float:
+    return float(np.percentile(sample, PEAK_PERCENT))
 
 
 def _work(record: SessionRecord, drive: DriveTrack) -> list[Metric]:
     """Positive work of arm and drive, all joints together, and the arm's part of it."""
-    own_j = _positive_work_j(record, drive.interaction_nm, drive.velocity_rad_s)
-    drive_j = _positive_work_j(record, drive.torque_nm, drive.velocity_rad_s)
+    works_j = np.column_stack(
+        [_positive_work_j(record, torque, drive.velocity_rad_s) for torque in (drive.interaction_nm, drive.torque_nm)]
+    )  # (T, 2)
+    own_j, drive_j = works_j.sum(axis=0).tolist()
     side = record.healthy_side.other
     found = [
         Metric("own_work", own_j, "J", side=side, caveat_key=ESTIMATED_TORQUE),
         Metric("drive_work", drive_j, "J", caveat_key=CARRIED_WEIGHT),
     ]
-    if own_j + drive_j > 0.0:
-        found.append(Metric("own_work_share", own_j / (own_j + drive_j), "1", side=side, caveat_key=CARRIED_WEIGHT))
+    share = _own_share(works_j)
+    if share is not None:
+        sem = batch_sem(works_j[record.engaged], _own_share)
+        found.append(Metric("own_work_share", share, "1", side=side, caveat_key=CARRIED_WEIGHT, sem=sem))
     return found
 
 
-def _positive_work_j(record: SessionRecord, torque_nm: Floats, velocity_rad_s: Floats) -> float:
+def _own_share(works_j: Floats) -> float | None:
+    """Of (N, 2) work of the arm and of the drive."""
+    own_j, drive_j = works_j.sum(axis=0).tolist()
+    return own_j / (own_j + drive_j) if own_j + drive_j > 0.0 else None
+
+
+def _positive_work_j(record: SessionRecord, torque_nm: Floats, velocity_rad_s: Floats) -> Floats:
+    """(T,) per tick."""
     power_w = np.maximum(torque_nm * velocity_rad_s, 0.0).sum(axis=1)
-    return float((power_w * np.where(record.engaged, record.spans_s, 0.0)).sum())
+    work_j: Floats = power_w * np.where(record.engaged, record.spans_s, 0.0)
+    return work_j
 
 
 def soft_holds(record: SessionRecord, drive: DriveTrack) -> int:

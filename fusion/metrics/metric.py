@@ -15,6 +15,10 @@ CARRIED_WEIGHT: Final = "caveat.carried_weight"
 """The drive's part contains carrying the arm's weight."""
 SENSOR_NOISE: Final = "caveat.sensor_noise"
 """The sensors' noise is a good part of the figure; compare within one set-up only."""
+UNRELIABLE: Final = "caveat.unreliable"
+"""Depth cameras are known not to measure it well; at most its trend over many sessions says something."""
+ADAPTED: Final = "caveat.adapted"
+"""The games' difficulty is adapted so that this stays where it is; the level shows what has changed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,10 +30,13 @@ class Metric:
     unit: str
     """SI: m, s, rad, m/s, Hz, N m, J; min for minutes, 1 for counts and ratios."""
     joint: str | None = None
-    """The exoskeleton joint it is of, or the sensor's name in a sensor's figures."""
+    """The exoskeleton joint it is of, the sensor's name in a sensor's figures, or the game's in a game's."""
     side: Side | None = None
     caveat_key: str | None = None
     """String key of what must be said beside it."""
+    sem: float | None = None
+    """Standard error of the value, from how much it varied within the session; None where that is not known, or where
+    it is a count or a time that is simply so."""
 
     @property
     def label_key(self) -> str:

@@ -10,6 +10,7 @@ import numpy as np
 from fusion.messages import Flags, Floats
 from fusion.metrics.metric import PASSIVE_DRIVE, Metric
 from fusion.metrics.record import JOINTS, SessionRecord
+from fusion.metrics.uncertainty import batch_sem
 from fusion.skeleton import Side
 
 LOWEST_PERCENT, HIGHEST_PERCENT = 2.0, 98.0
@@ -18,6 +19,8 @@ ENOUGH: Final = 50
 """Ticks below which no range is given."""
 TOLD_RAD: Final = radians(30.0)
 """The plane needs so much elevation, the rotation so much elbow bend, or they are noise."""
+RangeNames = tuple[str, str, str]
+RANGE: Final[RangeNames] = ("range_lowest", "range_highest", "range_of_movement")
 
 
 def range_metrics(record: SessionRecord) -> list[Metric]:
@@ -34,10 +37,29 @@ def _arm(angles_rad: Floats, usable: Flags, side: Side, caveat: str | None) -> l
         sample = angles_rad[usable & told(angles_rad, joint), column]
         if len(sample) < ENOUGH:
             continue
-        low, high = angle_range(sample)
-        named = (("range_lowest", low), ("range_highest", high), ("range_of_movement", high - low))
-        found += [Metric(name, value, "rad", joint, side, caveat) for name, value in named]
+        found += joint_range(RANGE, sample, joint, side, caveat)
     return found
+
+
+def joint_range(names: RangeNames, sample_rad: Floats, joint: str, side: Side, caveat: str | None) -> list[Metric]:
+    """Lowest, highest and the range between them of one joint, each with its standard error."""
+    return [
+        Metric(name, of(sample_rad), "rad", joint, side, caveat, batch_sem(sample_rad, of))
+        for name, of in zip(names, (_lowest, _highest, _width), strict=True)
+    ]
+
+
+def _lowest(sample_rad: Floats) -> float:
+    return angle_range(sample_rad)[0]
+
+
+def _highest(sample_rad: Floats) -> float:
+    return angle_range(sample_rad)[1]
+
+
+def _width(sample_rad: Floats) -> float:
+    low, high = angle_range(sample_rad)
+    return high - low
 
 
 def told(angles_rad: Floats, joint: str) -> Flags:

@@ -11,10 +11,11 @@ import numpy as np
 from scipy.signal import find_peaks
 
 from fusion.messages import Floats
-from fusion.metrics.metric import SENSOR_NOISE, Metric
+from fusion.metrics.metric import SENSOR_NOISE, UNRELIABLE, Metric
 from fusion.metrics.record import SessionRecord
 from fusion.metrics.smoothness import sparc
 from fusion.metrics.stretches import RATE_HZ, Stretch, low_passed, stretches
+from fusion.metrics.uncertainty import bootstrap_sem, mean_sem
 
 FASTEST_M_S: Final = 0.15
 """A movement's peak speed reaches this."""
@@ -26,6 +27,9 @@ RESTING_M_S: Final = 0.05
 SHORTEST_S: Final = 0.3
 SHORTEST_M: Final = 0.08
 """A movement carries the hand at least this far from where it was: noise jitters, but goes nowhere."""
+PEAK_RISE_M_S: Final = 0.02
+PEAKS_APART_S: Final = 0.15
+"""What counts as a velocity peak within a movement, as the movement units of Alt Murphy et al., 2011."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,6 +43,8 @@ class Movement:
     path_ratio: float
     """Path over the straight line from start to end; 1 is straight."""
     sparc: float
+    velocity_peaks: int
+    """1 = one smooth bell."""
 
 
 def movements(stretch: Stretch) -> list[Movement]:
@@ -60,22 +66,25 @@ def session_movements(record: SessionRecord) -> list[Movement]:
 
 
 def reach_metrics(record: SessionRecord) -> list[Metric]:
-    """Number of movements, and medians over them: time, peak and mean speed, path ratio, SPARC."""
+    """Number of movements, medians over them (time, speeds, path ratio, SPARC), and their mean number of peaks."""
     made = session_movements(record)
     if not made:
         return []
     side = record.healthy_side
+    peaks = np.array([float(one.velocity_peaks) for one in made])
 
     def median(name: str, unit: str, of: Callable[[Movement], float], caveat: str | None = None) -> Metric:
-        return Metric(name, float(np.median([of(one) for one in made])), unit, side=side, caveat_key=caveat)
+        values = np.array([of(one) for one in made])
+        return Metric(name, float(np.median(values)), unit, None, side, caveat, bootstrap_sem(values))
 
     return [
         Metric("movements", float(len(made)), "1", side=side),
         median("movement_time", "s", lambda one: one.duration_s),
-        median("peak_speed", "m/s", lambda one: one.peak_speed_m_s, SENSOR_NOISE),
+        median("peak_speed", "m/s", lambda one: one.peak_speed_m_s, UNRELIABLE),
         median("mean_speed", "m/s", lambda one: one.mean_speed_m_s),
         median("path_ratio", "1", lambda one: one.path_ratio),
         median("sparc", "1", lambda one: one.sparc, SENSOR_NOISE),
+        Metric("velocity_peaks", float(peaks.mean()), "1", None, side, UNRELIABLE, mean_sem(peaks)),
     ]
 
 
@@ -113,4 +122,11 @@ def _movement(smooth: Stretch, speed: Floats, first: int, last: int) -> Movement
         mean_speed_m_s=path_m / duration_s,
         path_ratio=path_m / straight_m,
         sparc=sparc(speed[first : last + 1], RATE_HZ),
+        velocity_peaks=_velocity_peaks(speed[first : last + 1]),
     )
+
+
+def _velocity_peaks(speed: Floats) -> int:
+    """Of one movement's speed; its largest value always counts."""
+    found, _ = find_peaks(speed, prominence=PEAK_RISE_M_S, distance=round(PEAKS_APART_S * RATE_HZ))
+    return max(1, len(found))

@@ -48,6 +48,27 @@ class DriveTrack:
 
 
 @dataclass(frozen=True, slots=True)
+class Attempt:
+    """One attempt in a game that succeeded or failed; None where nothing is known. The shown hand's figures."""
+
+    game: str
+    success: bool
+    level: float
+    """0..1, how hard it was."""
+    duration_s: float
+    """From the moment it was shown to its end."""
+    reaction_s: float | None = None
+    """From the moment it was shown until the hand set out."""
+    movement_s: float | None = None
+    """From there to the end."""
+    path_ratio: float | None = None
+    error_m: float | None = None
+    """Distance from the ideal, as the game defines it."""
+    hold_m: float | None = None
+    """Root mean square of the hand about its mean while it was to be still."""
+
+
+@dataclass(frozen=True, slots=True)
 class SessionRecord:
     """A session's ticks as arrays, T of them, at any rate of 20 Hz or more, even or not."""
 
@@ -67,6 +88,10 @@ class SessionRecord:
     """How often somebody said that it hurts."""
     drive: DriveTrack | None = None
     """None in recordings from before it was told: the exoskeleton alone moved the arm."""
+    shoulder_hitch_m: Floats | None = None
+    """(T,) rise of the healthy shoulder since the session was enabled; None in recordings from before it was told."""
+    attempts: tuple[Attempt, ...] = ()
+    """Of all games, in order; none in recordings from before they were logged."""
 
     @property
     def engaged(self) -> Flags:

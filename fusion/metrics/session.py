@@ -7,6 +7,7 @@ from math import isfinite
 from typing import Final
 
 from fusion.metrics.activity import activity_metrics
+from fusion.metrics.attempts import attempt_metrics
 from fusion.metrics.effort import effort_metrics
 from fusion.metrics.metric import Metric
 from fusion.metrics.posture import posture_metrics
@@ -18,6 +19,7 @@ from fusion.metrics.symmetry import symmetry_metrics
 
 FAMILIES: Final[tuple[Callable[[SessionRecord], list[Metric]], ...]] = (
     activity_metrics,
+    attempt_metrics,
     reach_metrics,
     range_metrics,
     symmetry_metrics,

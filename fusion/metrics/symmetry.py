@@ -13,12 +13,15 @@ from fusion.metrics.metric import PASSIVE_DRIVE, Metric
 from fusion.metrics.range_of_movement import told
 from fusion.metrics.record import JOINTS, SessionRecord
 from fusion.metrics.stretches import RATE_HZ, stretches
+from fusion.metrics.uncertainty import mean_sem
 
 LARGEST_LEAD_S, LARGEST_LAG_S = 0.2, 1.0
 SHORTEST_S: Final = 5.0
 """Engaged and seen for less in all, nothing is said."""
 LEAST_SPREAD_RAD: Final = radians(2.0)
 """A joint that hardly moved has no lag."""
+BATCH_S: Final = 10.0
+"""What varies from one such span to the next tells how sure lag and symmetry are."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,9 +42,18 @@ def symmetry_metrics(record: SessionRecord) -> list[Metric]:
         pairs = _pairs(record, joint)
         alike = likeness(pairs)
         if alike is not None:
-            found.append(Metric("symmetry", alike.symmetry, "1", joint, caveat_key=caveat))
-            found.append(Metric("lag", alike.lag_s, "s", joint, caveat_key=caveat))
+            symmetry_sem, lag_sem = _sems(pairs)
+            found.append(Metric("symmetry", alike.symmetry, "1", joint, caveat_key=caveat, sem=symmetry_sem))
+            found.append(Metric("lag", alike.lag_s, "s", joint, caveat_key=caveat, sem=lag_sem))
     return found
+
+
+def _sems(pairs: list[Floats]) -> tuple[float | None, float | None]:
+    """Standard errors of symmetry and lag, from spans of ten seconds."""
+    size = round(BATCH_S * RATE_HZ)
+    spans = [pair[start : start + size] for pair in pairs for start in range(0, len(pair) - size + 1, size)]
+    told = [alike for span in spans if (alike := likeness([span])) is not None]
+    return mean_sem(np.array([one.symmetry for one in told])), mean_sem(np.array([one.lag_s for one in told]))
 
 
 def _pairs(record: SessionRecord, joint: str) -> list[Floats]:

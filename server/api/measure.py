@@ -12,7 +12,7 @@ import numpy as np
 from db.therapy_session import MetricBase
 from fusion.messages import Floats
 from fusion.metrics.metric import Metric
-from fusion.metrics.record import DriveTrack, SensorTrack, SessionRecord
+from fusion.metrics.record import Attempt, DriveTrack, SensorTrack, SessionRecord
 from fusion.metrics.session import session_metrics
 from fusion.skeleton import Side
 from server.api.forms import Curves, JointCurves
@@ -31,6 +31,8 @@ class Counts:
     misses: int = 0
     pain_calls: int = 0
     """How often somebody said that it hurts."""
+    attempts: tuple[Attempt, ...] = ()
+    """Of all games, in order."""
 
 
 def measure(recording: Path, healthy_side: Side, counts: Counts) -> list[MetricBase]:
@@ -58,7 +60,14 @@ def session_record(ticks: Sequence[RecordedTick], healthy_side: Side, counts: Co
         misses=counts.misses,
         pain_calls=counts.pain_calls,
         drive=_drive(ticks),
+        shoulder_hitch_m=_hitch_m(ticks),
+        attempts=counts.attempts,
     )
+
+
+def _hitch_m(ticks: Sequence[RecordedTick]) -> Floats | None:
+    told = [tick.shoulder_hitch_m for tick in ticks if tick.shoulder_hitch_m is not None]
+    return np.array(told) if len(told) == len(ticks) else None
 
 
 def _drive(ticks: Sequence[RecordedTick]) -> DriveTrack | None:
@@ -142,6 +151,7 @@ def _row(metric: Metric) -> MetricBase:
         joint=metric.joint or "",
         side=metric.side or "",
         value=metric.value,
+        sem=metric.sem,
         unit=metric.unit,
         label=metric.label_key,
         caveat=metric.caveat_key or "",

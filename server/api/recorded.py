@@ -60,6 +60,8 @@ class RecordedTick(msgspec.Struct, frozen=True):
     exo: RecordedExo
     trunk_lean_m: float
     sensors: tuple[RecordedSensor, ...]
+    shoulder_hitch_m: float | None = None
+    """None in recordings from before it was told."""
 
 
 _decoder = msgspec.msgpack.Decoder(RecordedTick)

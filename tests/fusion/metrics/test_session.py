@@ -62,6 +62,7 @@ def record(seconds: float = 40.0, lag_s: float = 0.15) -> SessionRecord:
         sensors=(track,),
         hits=9,
         misses=3,
+        shoulder_hitch_m=np.linspace(0, 0.05, len(t_s)),
     )
 
 
@@ -112,6 +113,29 @@ def test_a_shaking_hand_is_less_smooth() -> None:
     hand[:, 2] += 0.02 * speed / speed.max() * np.sin(2 * pi * 2.5 * shaking.t_s)
     calm, shaky = (value(session_metrics(one), "sparc") for one in (shaking, replace(shaking, hand_in_trunk=hand)))
     assert shaky < calm - 0.2
+
+
+def test_a_reach_in_three_steps_has_three_velocity_peaks(usual: tuple[Metric, ...]) -> None:
+    assert value(usual, "velocity_peaks") == 1.0
+    stepped = record()
+    hand = stepped.hand_in_trunk.copy()
+    hand[:, 2] += 0.016 * np.sin(2 * pi * 3 * (hand[:, 2] + 0.2) / 0.3)
+    assert value(session_metrics(replace(stepped, hand_in_trunk=hand)), "velocity_peaks") > 1.5
+
+
+def test_a_figure_of_many_movements_says_how_sure_it_is(usual: tuple[Metric, ...]) -> None:
+    calm = named(usual, "movement_time").sem
+    rushed = record()
+    warp = np.cumsum(1.0 + 0.5 * np.sin(2 * pi * rushed.t_s / 16)) / RATE
+    uneven = replace(
+        rushed, hand_in_trunk=np.column_stack([np.interp(rushed.t_s, warp, c) for c in rushed.hand_in_trunk.T])
+    )
+    varied = named(session_metrics(uneven), "movement_time").sem
+    assert calm is not None
+    assert varied is not None
+    assert varied > 2 * calm
+    assert named(usual, "movements").sem is None
+    assert named(usual, "range_of_movement", "elbow", Side.LEFT).sem is not None
 
 
 def test_noise_neither_makes_nor_hides_a_movement() -> None:
@@ -181,6 +205,7 @@ def test_a_hole_in_the_ticks_counts_for_no_state() -> None:
         affected_rad=whole.affected_rad[keep],
         hand_in_trunk=whole.hand_in_trunk[keep],
         trunk_displacement_m=whole.trunk_displacement_m[keep],
+        shoulder_hitch_m=None,
     )
     assert value(session_metrics(cut), "time_engaged") == pytest.approx(28.0, abs=0.05)
 
@@ -191,6 +216,7 @@ def test_targets_trunk_and_sensors_are_reported(usual: tuple[Metric, ...]) -> No
     assert value(usual, "success_rate") == 0.75
     assert value(usual, "trunk_displacement") == pytest.approx(0.0525, abs=0.001)
     assert value(usual, "trunk_displacement_p95") == pytest.approx(0.095, abs=0.001)
+    assert value(usual, "shoulder_hitch_p95") == pytest.approx(0.0475, abs=0.001)
     assert value(usual, "sensor_frame_rate", "kinect-1") == 30.0
     assert value(usual, "sensor_residual", "kinect-1") == 0.02
     assert value(usual, "sensor_age_p95", "kinect-1") == pytest.approx(0.038)

@@ -11,8 +11,8 @@ EXO = {"angle_rad": [0.1] * 4, "velocity_rad_s": [0.2] * 4, "torque_nm": [3.0] *
 TOLD = {"interaction_nm": [0.5] * 4, "share": [0.3] * 4, "assistance": "assisted", "level": 0.6}
 
 
-def recorded(exo):
-    tick = {"t_s": 1.0, "state": "engaged", "healthy": None, "exo": exo, "trunk_lean_m": 0.0, "sensors": []}
+def recorded(exo, **more):
+    tick = {"t_s": 1.0, "state": "engaged", "healthy": None, "exo": exo, "trunk_lean_m": 0.0, "sensors": []} | more
     return msgspec.msgpack.decode(msgspec.msgpack.encode(tick), type=RecordedTick)
 
 
@@ -27,6 +27,12 @@ def test_a_recording_of_now_tells_effort_help_and_mode():
     assert record.drive.share.tolist() == [[0.3] * 4]
     assert record.drive.torque_nm.tolist() == [[3.0] * 4]
     assert (record.drive.assistance.tolist(), record.drive.level.tolist()) == (["assisted"], [0.6])
+
+
+def test_a_recording_from_before_the_shoulder_was_told_has_no_hitch():
+    assert session_record([recorded(EXO)], Side.RIGHT, Counts()).shoulder_hitch_m is None
+    told = session_record([recorded(EXO, shoulder_hitch_m=0.03)], Side.RIGHT, Counts())
+    assert told.shoulder_hitch_m.tolist() == [0.03]
 
 
 def test_a_tick_with_another_way_of_helping_is_refused():
