@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Final
 
 from fusion.errors import InputError
-from games import reach, trace
+from games import catch, reach, row, trace
 from games.game import GameSettings, Workspace
 from games.play import Play
 from games.rules import RulesFactory
@@ -14,6 +14,8 @@ from games.rules import RulesFactory
 GAMES: Final[Mapping[str, RulesFactory]] = {
     reach.NAME: reach.ReachRules,
     trace.NAME: trace.TraceRules,
+    catch.NAME: catch.CatchRules,
+    row.NAME: row.RowRules,
 }
 
 
