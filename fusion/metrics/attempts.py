@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 
 from fusion.messages import Floats
-from fusion.metrics.metric import ADAPTED, PASSIVE_DRIVE, SENSOR_NOISE, Metric
+from fusion.metrics.metric import ADAPTED, PASSIVE_DRIVE, Metric
 from fusion.metrics.record import Attempt, SessionRecord
 from fusion.metrics.uncertainty import bootstrap_sem, mean_sem, share_sem
 from fusion.skeleton import Side
@@ -21,8 +21,6 @@ MEDIANS: Final[tuple[Figure, ...]] = (
     ("accuracy", "m", lambda one: one.error_m),
     ("hold_stability", "m", lambda one: one.hold_m),
 )
-NOISY: Final = ("accuracy", "hold_stability")
-"""A few centimetres, as is the sensors' own error."""
 
 
 def attempt_metrics(record: SessionRecord) -> list[Metric]:
@@ -53,7 +51,7 @@ def _medians(game: str, attempts: list[Attempt], side: Side, driven: bool) -> li
     for name, unit, of in MEDIANS:
         values = _known([of(one) for one in attempts if one.success])
         if len(values):
-            caveat = PASSIVE_DRIVE if driven else SENSOR_NOISE if name in NOISY else None
+            caveat = PASSIVE_DRIVE if driven else None
             value, sem = float(np.median(values)), bootstrap_sem(values)
             found.append(Metric(name, value, unit, game, side, caveat, sem))
     return found

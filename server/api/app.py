@@ -14,7 +14,7 @@ from server.api.auth import AuthSettings
 from server.api.errors import add_error_handlers
 from server.api.guard import Guard
 from server.api.pages import BUILT, add_pages
-from server.api.routes import accounts, clinical_scores, patients, plans, replay, sessions, station
+from server.api.routes import accounts, clinical_scores, games, patients, plans, progress, replay, sessions, station
 from server.api.service import running_service
 from server.api.station_link import STATION
 from server.config import Config
@@ -68,7 +68,7 @@ def describe_app() -> FastAPI:
     )
     add_error_handlers(app)
     api = APIRouter(prefix="/api")
-    for resource in (accounts, patients, plans, clinical_scores, sessions, station, replay):
+    for resource in (accounts, patients, plans, clinical_scores, progress, sessions, games, station, replay):
         api.include_router(resource.router)
     app.include_router(api)
     return app

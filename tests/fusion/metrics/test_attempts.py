@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fusion.metrics.attempts import attempt_metrics
-from fusion.metrics.metric import ADAPTED, PASSIVE_DRIVE, SENSOR_NOISE, Metric
+from fusion.metrics.metric import ADAPTED, PASSIVE_DRIVE, Metric
 from fusion.metrics.record import Attempt, DriveTrack, SessionRecord
 from fusion.skeleton import Side
 
@@ -61,7 +61,7 @@ def test_they_are_the_shown_hands_and_say_when_the_drive_moved_it() -> None:
     assert passive["reaction_time", "reach"].side is Side.RIGHT
     assert passive["reaction_time", "reach"].caveat_key == PASSIVE_DRIVE
     assert alone["reaction_time", "reach"].caveat_key is None
-    assert alone["hold_stability", "reach"].caveat_key == SENSOR_NOISE
+    assert alone["hold_stability", "reach"].caveat_key is None
     assert alone["game_success", "reach"].caveat_key == ADAPTED
 
 

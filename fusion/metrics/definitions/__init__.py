@@ -1,0 +1,1 @@
+"""The catalogue's entries, a file per kind of figure; each file's `MEASURES`."""
