@@ -1,9 +1,26 @@
 // Everything the browser says, in English; a file per page in en/. zh/ has the same keys; a missing one does not compile.
 import { frame } from "./en/frame";
 import { gameReach } from "./en/game-reach";
+import { gameTrace } from "./en/game-trace";
 import { live } from "./en/live";
 import { patient } from "./en/patient";
+import { plan } from "./en/plan";
 import { play } from "./en/play";
+import { replay } from "./en/replay";
+import { scores } from "./en/scores";
 import { session } from "./en/session";
+import { wizard } from "./en/wizard";
 
-export const en = { ...play, ...live, ...session, ...patient, ...frame, ...gameReach } as const;
+export const en = {
+  ...play,
+  ...live,
+  ...session,
+  ...patient,
+  ...frame,
+  ...gameReach,
+  ...gameTrace,
+  ...wizard,
+  ...scores,
+  ...replay,
+  ...plan,
+} as const;

@@ -3,9 +3,26 @@
 import type { Key } from "./index";
 import { frame } from "./zh/frame";
 import { gameReach } from "./zh/game-reach";
+import { gameTrace } from "./zh/game-trace";
 import { live } from "./zh/live";
 import { patient } from "./zh/patient";
+import { plan } from "./zh/plan";
 import { play } from "./zh/play";
+import { replay } from "./zh/replay";
+import { scores } from "./zh/scores";
 import { session } from "./zh/session";
+import { wizard } from "./zh/wizard";
 
-export const zh: Record<Key, string> = { ...play, ...live, ...session, ...patient, ...frame, ...gameReach };
+export const zh: Record<Key, string> = {
+  ...play,
+  ...live,
+  ...session,
+  ...patient,
+  ...frame,
+  ...gameReach,
+  ...gameTrace,
+  ...wizard,
+  ...scores,
+  ...replay,
+  ...plan,
+};
