@@ -39,7 +39,7 @@ class UtcDateTime(TypeDecorator[datetime]):
 class Document(TypeDecorator[Any]):
     """A pydantic model, or a tuple of them, kept as JSON."""
 
-    impl = JSON
+    impl = JSON(none_as_null=True)
     cache_ok = True
 
     def __init__(self, model: Any) -> None:

@@ -14,7 +14,7 @@ from db.columns import Document, UtcDateTime, now_utc, word_of
 from db.exercise import Exercise, PlayedExercise
 from db.limits import AssistanceName
 from db.patient import SideName
-from db.workspace import MeasuredWorkspace
+from db.workspace import SessionWorkspace
 
 NOTES_LENGTH = 10_000
 
@@ -71,8 +71,8 @@ class SessionBase(SQLModel):
     pain_before: int | None = Field(default=None, ge=0, le=10)
     pain_after: int | None = Field(default=None, ge=0, le=10)
     limits: AllLimits = Field(default_factory=AllLimits, sa_type=Document(AllLimits))
-    workspace: MeasuredWorkspace | None = Field(
-        default=None, sa_type=Document(MeasuredWorkspace), description="Null = the games had the limits to go by."
+    workspace: SessionWorkspace | None = Field(
+        default=None, sa_type=Document(SessionWorkspace), description="Null in sessions from before it was kept."
     )
     version: str = Field(default="", max_length=40, description="The program's version.")
 

@@ -71,6 +71,14 @@ def levels_reached(session: Session, patient_id: int) -> dict[str, float]:
     return {one.game: one.level for played in reversed(newest) for one in played}
 
 
+def newest_with_workspace(session: Session, patient_id: int) -> TherapySession | None:
+    """The patient's newest session whose games' workspace was kept."""
+    rows = select(TherapySession).where(TherapySession.patient_id == patient_id)
+    return session.exec(
+        rows.where(col(TherapySession.workspace).is_not(None)).order_by(col(TherapySession.id).desc())
+    ).first()
+
+
 def change_session(session: Session, found: TherapySession, form: SessionUpdate) -> None:
     """Change what the form names; the rest stays."""
     for name in form.model_fields_set:
@@ -91,12 +99,6 @@ def add_event(session: Session, event: Event) -> Event:
 def events_of(session: Session, session_id: int) -> list[Event]:
     """What happened in a session, in order."""
     return list(session.exec(select(Event).where(Event.session_id == session_id).order_by(col(Event.id))))
-
-
-def last_event(session: Session, session_id: int, kind: str) -> Event | None:
-    """The newest event of a kind."""
-    found = select(Event).where(Event.session_id == session_id, Event.kind == kind).order_by(col(Event.id).desc())
-    return session.exec(found).first()
 
 
 def count_events(session: Session, session_id: int, kind: str, text: str) -> int:

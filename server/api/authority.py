@@ -9,11 +9,13 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 
 from fusion.errors import InputError, RefusedError
-from server.api.live import AuthorityView
+from server.api.live import AuthorityView, Screen
 
 PAGE_NAME = r"^[A-Za-z0-9_-]{0,64}$"
 LOST_AFTER_S = 1.0
 """A page acknowledges every tick that it gets; one that says nothing for so long is gone, whatever its socket says."""
+SCREEN_LOST_AFTER_S = 3.0
+"""The patient's screen may take longer: it moves nothing, and fetches and makes the next game's pictures in between."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,15 +49,25 @@ class Connection:
         self.replaced = asyncio.Event()
         """Set when the same page has opened a newer stream."""
         self._heard_s = clock()
+        self._draws_for: Screen | None = None
 
-    def heard(self) -> None:
-        """The page has said something."""
+    def heard(self, drawn_on: Screen | None) -> None:
+        """The page has said something, and for whom it draws; None while nobody sees it."""
         self._heard_s = self._clock()
+        self._draws_for = drawn_on or self._draws_for
 
     @property
     def lives(self) -> bool:
         """Whether the page was heard lately, and is not open anew."""
-        return not self.replaced.is_set() and self._clock() - self._heard_s <= LOST_AFTER_S
+        return self._heard_within(LOST_AFTER_S)
+
+    @property
+    def shows_patient(self) -> bool:
+        """Whether it is the patient's screen, and there."""
+        return self._draws_for is Screen.PATIENT and self._heard_within(SCREEN_LOST_AFTER_S)
+
+    def _heard_within(self, duration_s: float) -> bool:
+        return not self.replaced.is_set() and self._clock() - self._heard_s <= duration_s
 
 
 class Presence:
@@ -91,6 +103,15 @@ class Presence:
     def is_there(self, client: Client) -> bool:
         """Whether the page is connected and was heard lately."""
         return any(connection.lives for connection in self._open.get(client, ()))
+
+    @property
+    def patient_screens(self) -> int:
+        """How many pages show the games to the patient."""
+        return sum(connection.shows_patient for all_of_it in self._open.values() for connection in all_of_it)
+
+    def shows_patient(self, client: Client) -> bool:
+        """Whether the page is the patient's screen."""
+        return any(connection.shows_patient for connection in self._open.get(client, ()))
 
     def _forget_unless_open(self, client: Client) -> None:
         if not self._open.get(client):

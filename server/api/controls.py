@@ -80,7 +80,7 @@ class Controls:
         """
         course = self._opened(session_id)
         self._authority.require(client)
-        check_level(form.level, course.plan.assist_level_most)
+        check_level(form.level, course.opening.assist_level_most)
         answer = await self._link.ask(lambda number: SetAssistance(number=number, mode=form.mode, level=form.level))
         text = f"{form.mode}, at most {form.level:.2f}"
         self._journal.note(session_id, "assistance", text, mode=form.mode, level=form.level, by=client.account)

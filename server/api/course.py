@@ -1,17 +1,29 @@
-"""The open session while it lasts: its phase and its game, stepped with every tick. No database, no clock."""
+"""The open session while it lasts: its phase and its games, stepped with every tick. No database, no clock."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from math import dist
+from pathlib import Path
 
+from db.exercise import Exercise, PlayedExercise
+from db.limits import PassiveRange
+from db.workspace import SessionWorkspace
 from fusion.skeleton import Side
-from games.catalogue import GAMES, open_game
-from games.game import GameInput, GameSettings, GameView, Workspace
-from games.programme import Exercise, Programme
-from server.api.live import AuthorityView, SessionPhase, SessionView
+from games.catalogue import GAMES
+from games.game import GameSettings, GameView, Wish, Workspace
+from games.programme import Exercise as GameExercise
+from games.programme import Programme
+from games.replay import GameRecord
+from server.api.game_log_writer import GameLogWriter
+from server.api.live import AuthorityView, ExerciseView, SessionPhase, SessionView
 from server.api.measured_range import RangeMeter
+from server.api.playing import Playing, as_games
+from server.api.screen_watch import ScreenWatch
+from server.api.workspace import ends
+from server.api.workspace_meter import WorkspaceMeter
 from server.messages import DemoGoal, DriveState, JointLimits, LiveTick, Point
 
 _PHASES = {
@@ -25,53 +37,75 @@ _PHASES = {
 
 
 @dataclass(frozen=True, slots=True)
-class Plan:
+class Opening:
     """What was decided when the session was opened."""
 
     id: int
     patient: str
     affected_side: Side
-    game: str
+    exercises: tuple[Exercise, ...]
     seed: int
-    level: float
     limits: tuple[JointLimits, ...]
     assist_level_most: float
     """The most help that this patient is allowed, 0..1."""
-    soft_margin_rad: float
-    """The gate keeps commands so far inside the limits; targets must lie inside too."""
+    allowed: PassiveRange
+    """The limits less what the gate keeps of them; things must lie inside."""
+    workspace: SessionWorkspace
+    """Where things are placed unless the healthy arm shows otherwise."""
+    game_log: Path
     started: datetime
     t_started_s: float
     """Monotonic."""
 
 
 class Course:
-    """What has become of the plan so far."""
+    """What has become of the session so far."""
 
-    def __init__(self, plan: Plan) -> None:
-        self.plan = plan
+    def __init__(self, opening: Opening) -> None:
+        self.opening = opening
         self.saving = False
         self.interrupted = False
         self.closed = False
         """The station has let go of the patient; only storing is left."""
-        self.picture: GameView | None = None
         self.meter: RangeMeter | None = None
         """Measures the patient's own range, once somebody has asked for it."""
+        self.shown = WorkspaceMeter()
+        self.workspace = opening.workspace
+        self.screens = ScreenWatch()
+        self.playing: Playing | None = None
+        """The games, from the first tick on at which the arm is engaged."""
         self._state = DriveState.OFF
-        self._t_s = plan.t_started_s
-        self._game: Programme | None = None
+        self._t_s = opening.t_started_s
+
+    @property
+    def picture(self) -> GameView | None:
+        """How the games stand; None until the arm was first engaged."""
+        return None if self.playing is None else self.playing.picture
+
+    @property
+    def played(self) -> tuple[PlayedExercise, ...]:
+        """What has been played so far."""
+        return () if self.playing is None else self.playing.played
 
     def step(self, tick: LiveTick) -> GameView | None:
-        """Take a tick; the game's picture, None until the arm was first engaged."""
+        """Take a tick; the games' picture, None until the arm was first engaged."""
         dt_s, self._t_s, self._state = max(0.0, tick.t_s - self._t_s), tick.t_s, tick.state
+        self.shown.take(tick)
         if self.meter is not None:
             self.meter.take(tick)
-        active = tick.state is DriveState.ENGAGED
-        if self._game is None and active:
-            self._game = _opened(self.plan, tick)
-        if self._game is not None and not self.saving:
-            hand = tick.affected.points_in_trunk[3]
-            self.picture = self._game.step(GameInput(dt_s=dt_s, hand=hand, active=active))
+        engaged = tick.state is DriveState.ENGAGED
+        if self.playing is None and engaged and not self.saving:
+            self.playing = _begun(self.opening, self.workspace, tick)
+        if self.playing is not None and not self.saving:
+            self.playing.step(tick, dt_s, active=engaged and not self.screens.is_lost)
         return self.picture
+
+    def see_screens(self, count: int) -> bool:
+        """So many screens show the games now; True where the last of them has just gone, and the game pauses."""
+        has_gone = self.screens.take(count)
+        if has_gone and self.playing is not None:
+            self.playing.wish(Wish.PAUSE)
+        return has_gone
 
     @property
     def phase(self) -> SessionPhase:
@@ -82,17 +116,19 @@ class Course:
 
     def view(self, authority: AuthorityView | None) -> SessionView:
         """The session in a line."""
-        plan = self.plan
+        opening = self.opening
         return SessionView(
-            id=plan.id,
-            patient=plan.patient,
-            game=plan.game,
-            affected_side=plan.affected_side,
-            started=plan.started,
-            elapsed_s=max(0.0, self._t_s - plan.t_started_s),
+            id=opening.id,
+            patient=opening.patient,
+            exercises=_listed(opening.exercises),
+            affected_side=opening.affected_side,
+            started=opening.started,
+            elapsed_s=max(0.0, self._t_s - opening.t_started_s),
             phase=self.phase,
-            assist_level_most=plan.assist_level_most,
+            assist_level_most=opening.assist_level_most,
             authority=authority,
+            patient_screens=self.screens.count,
+            screen_lost=self.screens.is_lost,
         )
 
 
@@ -100,13 +136,12 @@ def warm_up() -> None:
     """Open every game once: what the first one loads and compiles must make no heartbeat late (SR-9)."""
     shoulder, reach_rad = (0.2, 0.0, 0.0), (0.1, 1.0)
     workspace = Workspace(Side.RIGHT, shoulder, 0.3, 0.3, reach_rad, reach_rad, reach_rad, reach_rad)
-    for name in GAMES:
-        open_game(name, workspace, 0, GameSettings())
+    Programme(tuple(GameExercise(name, GameSettings()) for name in GAMES), workspace, 0)
 
 
-def counted(picture: GameView | None) -> int:
-    """How many targets the game has counted, collected or not."""
-    return 0 if picture is None else picture.hits + picture.misses
+def counted(picture: GameView | None) -> tuple[int, int]:
+    """Which exercise it is, and how many attempts have ended in it."""
+    return (0, 0) if picture is None else (picture.exercise, picture.hits + picture.misses)
 
 
 def goal(course: Course | None, tick: LiveTick) -> DemoGoal:
@@ -114,7 +149,7 @@ def goal(course: Course | None, tick: LiveTick) -> DemoGoal:
     sought = None if course is None else _sought(course.picture, tick)
     return DemoGoal(
         hand_in_trunk=None if sought is None else (-sought[0], sought[1], sought[2]),
-        healthy_side=tick.healthy_side if course is None else course.plan.affected_side.other,
+        healthy_side=tick.healthy_side if course is None else course.opening.affected_side.other,
         exo_rad=tick.exo.angle_rad,
     )
 
@@ -128,27 +163,26 @@ def _sought(picture: GameView | None, tick: LiveTick) -> Point | None:
     return picture.aim
 
 
-def _opened(plan: Plan, tick: LiveTick) -> Programme:
-    exercises = (Exercise(plan.game, GameSettings(start_level=plan.level)),)
-    return Programme(exercises, _workspace(plan, tick), plan.seed)
-
-
-def _workspace(plan: Plan, tick: LiveTick) -> Workspace:
-    shoulder, elbow, _, hand = tick.affected.points_in_trunk
-    ranges = {limits.joint: _inside(limits, plan.soft_margin_rad) for limits in plan.limits}
-    return Workspace(
-        side=plan.affected_side,
-        shoulder=shoulder,
-        upper_arm_m=dist(shoulder, elbow),
-        forearm_m=dist(elbow, hand),
-        plane_rad=ranges["plane"],
-        elevation_rad=ranges["elevation"],
-        rotation_rad=ranges["rotation"],
-        elbow_rad=ranges["elbow"],
+def _listed(exercises: Sequence[Exercise]) -> tuple[ExerciseView, ...]:
+    return tuple(
+        ExerciseView(game=one.game, minutes=one.minutes, level=one.level or 0.0, pinned=one.pinned) for one in exercises
     )
 
 
-def _inside(limits: JointLimits, margin_rad: float) -> tuple[float, float]:
-    low, high = limits.min_rad + margin_rad, limits.max_rad - margin_rad
-    middle = (limits.min_rad + limits.max_rad) / 2
-    return (low, high) if low < high else (middle, middle)
+def _begun(opening: Opening, workspace: SessionWorkspace, tick: LiveTick) -> Playing:
+    record = GameRecord(as_games(opening.exercises), _workspace(opening, workspace, tick), opening.seed)
+    return Playing(record, GameLogWriter(opening.game_log, record))
+
+
+def _workspace(opening: Opening, workspace: SessionWorkspace, tick: LiveTick) -> Workspace:
+    shoulder, elbow, _, hand = tick.affected.points_in_trunk
+    return Workspace(
+        side=opening.affected_side,
+        shoulder=shoulder,
+        upper_arm_m=dist(shoulder, elbow),
+        forearm_m=dist(elbow, hand),
+        plane_rad=ends(workspace.used, "plane"),
+        elevation_rad=ends(workspace.used, "elevation"),
+        rotation_rad=ends(workspace.used, "rotation"),
+        elbow_rad=ends(workspace.used, "elbow"),
+    )

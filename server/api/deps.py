@@ -21,6 +21,7 @@ from server.api.authority import PAGE_NAME, Client
 from server.api.controls import Controls
 from server.api.errors import ApiError, not_found
 from server.api.figures import Figures
+from server.api.game_controls import GameControls
 from server.api.service import Service
 from server.api.therapy import Therapy
 
@@ -62,11 +63,17 @@ async def get_controls(service: ServiceDep) -> Controls:
     return service.controls
 
 
+async def get_game_controls(service: ServiceDep) -> GameControls:
+    """What people want of the games."""
+    return service.game_controls
+
+
 SessionDep = Annotated[Session, Depends(get_session, scope="function")]
 AuthDep = Annotated[Auth, Depends(get_auth)]
 TherapyDep = Annotated[Therapy, Depends(get_therapy)]
 FiguresDep = Annotated[Figures, Depends(get_figures)]
 ControlsDep = Annotated[Controls, Depends(get_controls)]
+GameControlsDep = Annotated[GameControls, Depends(get_game_controls)]
 TokenDep = Annotated[str | None, Depends(cookie_scheme)]
 
 

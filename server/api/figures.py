@@ -9,13 +9,15 @@ from fastapi.concurrency import run_in_threadpool
 
 from db.database import Database
 from db.errors import DatabaseError
-from db.therapy_session import SessionStatus
+from db.therapy_session import SessionStatus, TherapySession
 from fusion.errors import MirrorlimbError
 from fusion.skeleton import Side
 from server.api import session_store
 from server.api.forms import Curves
+from server.api.game_log import game_log_of
 from server.api.journal import Journal
 from server.api.measure import measure, read_curves
+from server.api.tally import tally_again
 
 log = logging.getLogger(__name__)
 
@@ -54,6 +56,14 @@ class Figures:
 
     def _measure_now(self, session_id: int) -> None:
         found = session_store.existing_session(self._database, session_id)
+        if not found.played:
+            self._play_again(found)
         counts = session_store.counts(self._database, session_id)
         metrics = measure(self._data / found.recording, Side(found.affected_side).other, counts)
         session_store.store_metrics(self._database, session_id, metrics)
+
+    def _play_again(self, found: TherapySession) -> None:
+        """Where the program was killed in mid-game, what was played is in the games' file only."""
+        log_file = game_log_of(self._data / found.recording)
+        if log_file.is_file():
+            session_store.store_played(self._database, found.id or 0, tally_again(log_file))

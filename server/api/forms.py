@@ -18,11 +18,13 @@ NAME = "Dr. Lin"
 PASSWORD_EXAMPLE = "three quiet herons"  # noqa: S105 (an example, opens nothing)
 
 
-class _Form(BaseModel):
+class Form(BaseModel):
+    """What somebody sends; a word that is not asked for is refused."""
+
     model_config = ConfigDict(extra="forbid")
 
 
-class Credentials(_Form):
+class Credentials(Form):
     """A name and a password."""
 
     name: Annotated[str, StringConstraints(min_length=1, max_length=80, strip_whitespace=True)]
@@ -62,7 +64,7 @@ class DemoWelcome(BaseModel):
     patient: PatientPublic
 
 
-class SessionOpen(_Form):
+class SessionOpen(Form):
     """Opening a session; the affected side is said once more so that a slip is found before the arm moves."""
 
     patient_id: int
@@ -90,7 +92,7 @@ class SessionOpen(_Form):
     )
 
 
-class SessionEnd(_Form):
+class SessionEnd(Form):
     """Ending a session."""
 
     pain_after: Pain | None = None
@@ -101,7 +103,7 @@ class SessionEnd(_Form):
 Action = Literal["start", "hold", "resume", "stop", "reset", "pain"]
 
 
-class Control(_Form):
+class Control(Form):
     """What a person wants of the arm."""
 
     action: Action
@@ -109,7 +111,7 @@ class Control(_Form):
     model_config = ConfigDict(extra="forbid", json_schema_extra={"examples": [{"action": "start"}]})
 
 
-class AssistanceForm(_Form):
+class AssistanceForm(Form):
     """How the drive is to help from now on."""
 
     mode: Assistance
@@ -119,7 +121,7 @@ class AssistanceForm(_Form):
     model_config = ConfigDict(extra="forbid", json_schema_extra={"examples": [{"mode": "assisted", "level": 0.5}]})
 
 
-class TakeOver(_Form):
+class TakeOver(Form):
     """Taking over; while another page is in charge and connected, this must be confirmed."""
 
     confirmed: bool = False
@@ -150,7 +152,7 @@ class MeasuredRange(BaseModel):
     model_config = ConfigDict(json_schema_extra={"examples": [{"ticks": 0, "range": None}]})
 
 
-class Follow(_Form):
+class Follow(Form):
     """Which body of a sensor is the patient."""
 
     sensor: str = Field(min_length=1, max_length=120)
@@ -161,7 +163,7 @@ class Follow(_Form):
     )
 
 
-class View3DShown(_Form):
+class View3DShown(Form):
     """What the 3-D view shows besides the body and the exoskeleton."""
 
     sensors: bool

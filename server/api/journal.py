@@ -67,7 +67,8 @@ class Journal:
 
     def note_score(self, session_id: int, picture: GameView) -> None:
         """The game counted a hit or a miss."""
-        counted = {"hits": picture.hits, "misses": picture.misses, "score": picture.score, "level": picture.level}
+        kept = ("game", "exercise", "hits", "misses", "score", "level")
+        counted = {name: getattr(picture, name) for name in kept}
         self.note(session_id, SCORE, ", ".join(picture.feedback), **counted)
 
     async def written(self) -> None:

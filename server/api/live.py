@@ -36,12 +36,21 @@ class AuthorityView(msgspec.Struct, frozen=True, kw_only=True):
     """Whether that page is there; while it is not, nobody is in charge and an engaged arm holds."""
 
 
+class ExerciseView(msgspec.Struct, frozen=True, kw_only=True):
+    """One exercise of the open session, as it begins."""
+
+    game: str
+    minutes: float
+    level: float
+    pinned: bool
+
+
 class SessionView(msgspec.Struct, frozen=True, kw_only=True):
     """The open session in a line."""
 
     id: int
     patient: str
-    game: str
+    exercises: tuple[ExerciseView, ...]
     affected_side: Side
     started: datetime
     elapsed_s: float
@@ -49,6 +58,10 @@ class SessionView(msgspec.Struct, frozen=True, kw_only=True):
     assist_level_most: float
     """The most help that this patient is allowed, 0..1."""
     authority: AuthorityView | None
+    patient_screens: int
+    """How many pages show the games to the patient now."""
+    screen_lost: bool
+    """The patient's screen was there and has gone: the games wait for it, or for a person to say that they go on."""
 
 
 class LiveMessage(msgspec.Struct, frozen=True, kw_only=True):

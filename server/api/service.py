@@ -19,6 +19,7 @@ from server.api.data_folder import DATABASE, until_station_is_gone
 from server.api.demo import Demo
 from server.api.figures import Figures
 from server.api.forms import Station
+from server.api.game_controls import GameControls
 from server.api.journal import Journal
 from server.api.latency import LatencyMeter
 from server.api.limits import snapshots
@@ -47,6 +48,7 @@ class Service:
     presence: Presence
     therapy: Therapy
     controls: Controls
+    game_controls: GameControls
     figures: Figures
     latency: LatencyMeter
     relay: Relay
@@ -73,14 +75,16 @@ async def running_service(
         presence = Presence(link.beat)
         authority = Authority(presence)
         figures = Figures(data, database, journal)
-        therapy = Therapy(config, data, database, link, journal, figures, authority)
+        therapy = Therapy(config, data, database, link, journal, figures, authority, presence)
         link.in_charge = therapy.in_charge
         controls = Controls(therapy.opened, link, journal, authority)
+        game_controls = GameControls(therapy.opened, database, journal, authority, presence)
         latency = LatencyMeter()
         relay = Relay(therapy, latency)
         view3d = View3D(relay.viewers)
         journal.start()
         stack.push_async_callback(journal.close)
+        stack.push_async_callback(therapy.close)
         view3d.start()
         stack.push_async_callback(view3d.close)
         replay = Replay(data, database, lambda: therapy.is_open)
@@ -95,7 +99,20 @@ async def running_service(
         stack.callback(recovery.cancel)
         demo = Demo(database, auth, config.demo and config.station.exoskeleton.drive == SIMULATED)
         yield Service(
-            config, database, auth, demo, link, presence, therapy, controls, figures, latency, relay, view3d, replay
+            config=config,
+            database=database,
+            auth=auth,
+            demo=demo,
+            link=link,
+            presence=presence,
+            therapy=therapy,
+            controls=controls,
+            game_controls=game_controls,
+            figures=figures,
+            latency=latency,
+            relay=relay,
+            view3d=view3d,
+            replay=replay,
         )
 
 

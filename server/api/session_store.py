@@ -5,7 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 from datetime import datetime
 
+from sqlmodel import Session
+
 from db.database import Database
+from db.exercise import PlayedExercise
+from db.limits import PassiveRange
 from db.patient import Patient
 from db.queries import patients, sessions
 from db.therapy_session import (
@@ -17,13 +21,15 @@ from db.therapy_session import (
     SessionStatus,
     TherapySession,
 )
+from db.workspace import SessionWorkspace
 from server import __version__
 from server.api.errors import not_found
 from server.api.exercises import exercises_for
 from server.api.forms import SessionOpen
-from server.api.journal import CONTROL, SCORE
+from server.api.journal import CONTROL
 from server.api.limits import snapshots
 from server.api.measure import Counts
+from server.api.workspace import first_workspace
 from server.messages import JointLimits
 
 
@@ -52,6 +58,7 @@ def begin(
     therapist_id: int,
     seed: int,
     limits: tuple[JointLimits, ...],
+    allowed: PassiveRange,
 ) -> TherapySession:
     """Store a session that begins now, and decide where it is recorded.
 
@@ -71,11 +78,17 @@ def begin(
                 assistance=form.assistance or patient.assistance,
                 assist_level=patient.assist_level_most if form.assist_level is None else form.assist_level,
                 limits=AllLimits(joints=snapshots(limits), set_by=patient.limits_set_by, set_at=patient.limits_set_at),
+                workspace=_first_workspace(session, form.patient_id, allowed),
                 version=__version__,
             ),
         )
         begun.recording = f"recordings/session-{begun.id:06d}.mcap"
         return begun
+
+
+def _first_workspace(session: Session, patient_id: int, allowed: PassiveRange) -> SessionWorkspace:
+    last = sessions.newest_with_workspace(session, patient_id)
+    return first_workspace(None, (), allowed) if last is None else first_workspace(last.workspace, last.played, allowed)
 
 
 def forget(database: Database, session_id: int) -> None:
@@ -87,12 +100,28 @@ def forget(database: Database, session_id: int) -> None:
 def finish(
     database: Database, session_id: int, status: SessionStatus, ended_at: datetime, pain_after: int | None
 ) -> None:
-    """Store that the session is over. Its metrics follow; until then it counts as unmeasured."""
+    """Store that the session is over. Its figures follow; until then it counts as unmeasured."""
     with database.session() as session:
         found = sessions.find_session(session, session_id)
         if found is not None:
             found.status, found.ended_at = status, ended_at
             found.pain_after = pain_after if pain_after is not None else found.pain_after
+
+
+def store_played(database: Database, session_id: int, played: tuple[PlayedExercise, ...]) -> None:
+    """Store what became of the session's exercises."""
+    with database.session() as session:
+        found = sessions.find_session(session, session_id)
+        if found is not None:
+            found.played = played
+
+
+def store_workspace(database: Database, session_id: int, workspace: SessionWorkspace) -> None:
+    """Store what the session's games go by."""
+    with database.session() as session:
+        found = sessions.find_session(session, session_id)
+        if found is not None:
+            found.workspace = workspace
 
 
 def store_metrics(database: Database, session_id: int, metrics: Iterable[MetricBase]) -> None:
@@ -106,12 +135,11 @@ def store_metrics(database: Database, session_id: int, metrics: Iterable[MetricB
 
 
 def counts(database: Database, session_id: int) -> Counts:
-    """What the game had counted when it last noted its score, and how often pain was called."""
+    """What the games counted, and how often pain was called."""
+    played = existing_session(database, session_id).played
     with database.session() as session:
-        noted = sessions.last_event(session, session_id, SCORE)
         pain_calls = sessions.count_events(session, session_id, CONTROL, "pain")
-    score = {} if noted is None else noted.data
-    return Counts(score.get("hits", 0), score.get("misses", 0), pain_calls)
+    return Counts(sum(one.hits for one in played), sum(one.misses for one in played), pain_calls)
 
 
 def public(database: Database, session_id: int) -> SessionPublic:

@@ -93,7 +93,8 @@ class _Page:
     async def _listen(self) -> None:
         try:
             async for text in self._socket.iter_text():
-                self._answers.put(_acks.decode(text))
-                self._connection.heard()
+                answer = _acks.decode(text)
+                self._answers.put(answer)
+                self._connection.heard(answer.drawn_on)
         except msgspec.MsgspecError:
             await self._socket.close(1003, 'expected {"ack": index}')

@@ -16,19 +16,22 @@ from db.database import Database
 from db.errors import DatabaseError
 from db.patient import Patient
 from db.therapy_session import SessionDetail, SessionPublic, SessionStatus, TherapySession
+from db.workspace import SessionWorkspace
 from fusion.errors import RefusedError
 from fusion.skeleton import Side
 from games.game import GameView
 from server.api import session_store
-from server.api.authority import Authority, Client
+from server.api.authority import Authority, Client, Presence
 from server.api.controls import check_level
-from server.api.course import Course, Plan, counted, goal
+from server.api.course import Course, Opening, counted, goal
 from server.api.figures import Figures
 from server.api.forms import SessionOpen
+from server.api.game_log import game_log_of
 from server.api.journal import Journal
 from server.api.limits import session_limits
 from server.api.live import SessionView
 from server.api.station_link import StationLink
+from server.api.workspace import inside
 from server.config import Config
 from server.messages import (
     AnyEvent,
@@ -55,6 +58,7 @@ class Therapy:
         journal: where events go.
         figures: worked out at the end.
         authority: given to whoever opens a session.
+        presence: which pages show the games to the patient.
     """
 
     def __init__(
@@ -66,8 +70,10 @@ class Therapy:
         journal: Journal,
         figures: Figures,
         authority: Authority,
+        presence: Presence,
     ) -> None:
         self._config, self._data, self._figures, self._authority = config, data, figures, authority
+        self._presence = presence
         self._database, self._link, self._journal = database, link, journal
         self._was_in_charge = ""
         self._course: Course | None = None
@@ -85,12 +91,20 @@ class Therapy:
         """Take a tick: step the game, steer the demonstration's patient."""
         course = self._course
         if course is not None:
+            self._look_for_screens(course)
             before, after = course.picture, course.step(tick)
             if after is not None and counted(after) != counted(before):
-                self._journal.note_score(course.plan.id, after)
+                self._journal.note_score(course.opening.id, after)
         if self._config.demo:
             self._link.steer_demonstration(goal(course, tick))
         return None if course is None else course.picture
+
+    def _look_for_screens(self, course: Course) -> None:
+        before, now = course.screens.count, self._presence.patient_screens
+        if course.see_screens(now):
+            self._journal.note(course.opening.id, "screen", "the patient's screen has gone; the game waits", screens=0)
+        elif now != before:
+            self._journal.note(course.opening.id, "screen", f"{now} of the patient's screens are there", screens=now)
 
     def view(self) -> SessionView | None:
         """The open session in a line."""
@@ -101,7 +115,7 @@ class Therapy:
         name, before = self._authority.in_charge, self._was_in_charge
         if name != before and self._course is not None:
             text = f"{name} is in charge" if name else f"{before} is not connected; nobody is in charge"
-            self._journal.note(self._course.plan.id, "authority", text, before=before, after=name)
+            self._journal.note(self._course.opening.id, "authority", text, before=before, after=name)
         self._was_in_charge = name
         return name
 
@@ -110,7 +124,7 @@ class Therapy:
         course = self._course
         if course is None:
             return None
-        return await run_in_threadpool(session_store.public, self._database, course.plan.id)
+        return await run_in_threadpool(session_store.public, self._database, course.opening.id)
 
     async def open(self, form: SessionOpen, client: Client) -> SessionPublic:
         """Open a session; the page that does is in charge of it.
@@ -129,11 +143,9 @@ class Therapy:
             _check_side(form, patient)
             _check_limits(form, patient)
             limits = session_limits(patient.limits, self._config.station.device)
-            begun = await run_in_threadpool(
-                session_store.begin, self._database, form, patient, client.account_id, secrets.randbits(31), limits
-            )
+            begun = await run_in_threadpool(self._begin, form, patient, client, limits)
             await self._open_at_station(begun, patient, limits)
-            self._course = Course(self._plan(begun, patient, limits))
+            self._course = Course(self._opening(begun, patient, limits))
             self._journal.note(begun.id or 0, "opened", f"opened by {client.account}", by=client.account)
             self._authority.give(client)
             self._link.beat()
@@ -164,6 +176,15 @@ class Therapy:
             await self._figures.measure(session_id)
             return await run_in_threadpool(session_store.detail, self._database, session_id)
 
+    def _begin(
+        self, form: SessionOpen, patient: Patient, client: Client, limits: tuple[JointLimits, ...]
+    ) -> TherapySession:
+        """Store the session; opening it at the station follows."""
+        allowed = inside(limits, self._config.station.gate.soft_margin_rad)
+        return session_store.begin(
+            self._database, form, patient, client.account_id, secrets.randbits(31), limits, allowed
+        )
+
     async def _open_at_station(self, begun: TherapySession, patient: Patient, limits: tuple[JointLimits, ...]) -> None:
         recording = self._data / begun.recording
         recording.parent.mkdir(parents=True, exist_ok=True)
@@ -189,17 +210,19 @@ class Therapy:
             await run_in_threadpool(session_store.forget, self._database, begun.id or 0)
             raise
 
-    def _plan(self, begun: TherapySession, patient: Patient, limits: tuple[JointLimits, ...]) -> Plan:
-        return Plan(
+    def _opening(self, begun: TherapySession, patient: Patient, limits: tuple[JointLimits, ...]) -> Opening:
+        allowed = inside(limits, self._config.station.gate.soft_margin_rad)
+        return Opening(
             id=begun.id or 0,
             patient=patient.name,
             affected_side=Side(begun.affected_side),
-            game=begun.exercises[0].game,
+            exercises=begun.exercises,
             seed=begun.seed,
-            level=begun.exercises[0].level or 0.0,
             limits=limits,
             assist_level_most=patient.assist_level_most,
-            soft_margin_rad=self._config.station.gate.soft_margin_rad,
+            allowed=allowed,
+            workspace=begun.workspace or SessionWorkspace(source="limits", used=allowed),
+            game_log=game_log_of(self._data / begun.recording),
             started=begun.started_at,
             t_started_s=time.monotonic(),
         )
@@ -213,14 +236,29 @@ class Therapy:
                 await self._link.ask(lambda number: CloseSession(number=number))
                 await asyncio.wait_for(self._closed.wait(), CLOSED_WITHIN_S)
         except (RefusedError, TimeoutError) as error:
-            self._journal.note(course.plan.id, "not closed", f"the station did not close the session: {error}")
+            self._journal.note(course.opening.id, "not closed", f"the station did not close the session: {error}")
         course.closed = True
-        self._journal.note(course.plan.id, "ended", f"ended by {client.account}", by=client.account)
+        self._journal.note(course.opening.id, "ended", f"ended by {client.account}", by=client.account)
 
     async def _store_end(self, course: Course, pain_after: int | None) -> None:
         status = SessionStatus.INTERRUPTED if course.interrupted else SessionStatus.ENDED
         ended_at: datetime = now_utc()
-        await run_in_threadpool(session_store.finish, self._database, course.plan.id, status, ended_at, pain_after)
+        session_id = course.opening.id
+        await self._close_game_log(course)
+        await run_in_threadpool(session_store.store_played, self._database, session_id, course.played)
+        await run_in_threadpool(session_store.finish, self._database, session_id, status, ended_at, pain_after)
+
+    async def _close_game_log(self, course: Course) -> None:
+        if course.playing is None:
+            return
+        await run_in_threadpool(course.playing.log.close)
+        if course.playing.log.trouble:
+            self._journal.note(course.opening.id, "not logged", course.playing.log.trouble)
+
+    async def close(self) -> None:
+        """The service ends: whatever was played so far is written down."""
+        if self._course is not None:
+            await self._close_game_log(self._course)
 
     def opened(self, session_id: int) -> Course:
         """The open session.
@@ -229,7 +267,7 @@ class Therapy:
             RefusedError: that session is not open.
         """
         course = self._course
-        if course is None or course.plan.id != session_id:
+        if course is None or course.opening.id != session_id:
             raise RefusedError(f"session {session_id} is not open", "the open session", "open a session first")
         return course
 
@@ -237,13 +275,13 @@ class Therapy:
         if isinstance(event, SessionClosed):
             self._closed.set()
         if self._course is not None:
-            self._journal.note_event(self._course.plan.id, event)
+            self._journal.note_event(self._course.opening.id, event)
 
     def _station_died(self, words: str) -> None:
         self._closed.set()
         if self._course is not None:
             self._course.interrupted = True
-            self._journal.note(self._course.plan.id, "interrupted", f"the station died: {words}")
+            self._journal.note(self._course.opening.id, "interrupted", f"the station died: {words}")
 
 
 def _check_limits(form: SessionOpen, patient: Patient) -> None:

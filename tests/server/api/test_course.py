@@ -9,11 +9,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from db.exercise import Exercise
 from db.limits import ForceLimits, JointForce, JointRange, PassiveRange, PatientLimits
+from db.workspace import SessionWorkspace
 from fusion.errors import RefusedError
 from fusion.skeleton import Side
-from server.api.course import Course, Plan, goal
+from server.api.course import Course, Opening, goal
 from server.api.limits import session_limits
+from server.api.workspace import inside
 from server.config import StationConfig
 from server.messages import DriveState
 
@@ -37,22 +40,28 @@ def tick(t_s, state):
 
 
 @pytest.fixture
-def course():
-    return Course(
-        Plan(
+def course(tmp_path):
+    limits = session_limits(PatientLimits(), DEVICE)
+    allowed = inside(limits, 0.1)
+    made = Course(
+        Opening(
             id=1,
             patient="Wang",
             affected_side=Side.LEFT,
-            game="reach",
+            exercises=(Exercise(game="reach", minutes=2.0, level=0.3), Exercise(game="reach", minutes=1.0)),
             seed=3,
-            level=0.3,
-            limits=session_limits(PatientLimits(), DEVICE),
+            limits=limits,
             assist_level_most=0.8,
-            soft_margin_rad=0.1,
+            allowed=allowed,
+            workspace=SessionWorkspace(source="limits", used=allowed),
+            game_log=tmp_path / "session.game",
             started=datetime(2026, 3, 1, tzinfo=UTC),
             t_started_s=10.0,
         )
     )
+    yield made
+    if made.playing is not None:
+        made.playing.log.close()
 
 
 @given(angles, angles)

@@ -241,9 +241,9 @@ def test_a_session_that_is_not_open_cannot_be_controlled(therapist, session, rou
 def test_a_game_runs_while_the_arm_is_engaged(shared, therapist, session):
     assert shared.service.therapy.view().phase == "preparing"
     control(therapist, session, "start")
-    picture = until(lambda: shared.service.therapy._course.picture)
+    picture = until(lambda: shared.service.therapy.opened(session["id"]).picture)
     assert picture.game == "reach"
-    until(lambda: shared.service.therapy._course.picture.time_left_s < picture.time_left_s)
+    until(lambda: shared.service.therapy.opened(session["id"]).picture.time_left_s < picture.time_left_s)
     assert shared.service.therapy.view().phase == "running"
 
 

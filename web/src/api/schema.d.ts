@@ -104,6 +104,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/metrics": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Measures
+         * @description Every measure: formula, unit, source, filter, and how far these sensors can be trusted for it.
+         */
+        get: operations["list_measures_api_metrics_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/patients": {
         parameters: {
             query?: never;
@@ -236,6 +256,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/patients/{patient_id}/progress": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Progress
+         * @description Every figure over the patient's sessions, with what difference between two of them is more than chance.
+         */
+        get: operations["read_progress_api_patients__patient_id__progress_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/patients/{patient_id}/scores": {
         parameters: {
             query?: never;
@@ -337,6 +377,26 @@ export interface paths {
          * @description The states, hits, misses and calls of pain of the session that is shown, or null.
          */
         get: operations["read_timeline_api_replay_timeline_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/scales": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Scales
+         * @description The scales that a person scores, with what change in them means.
+         */
+        get: operations["list_scales_api_scales_get"];
         put?: never;
         post?: never;
         delete?: never;
@@ -571,6 +631,27 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sessions/{session_id}/game": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Wish Of Game
+         * @description Start, pause, go on, rest, go to the next exercise, quit, pin the difficulty or let it adapt. Pausing is for
+         *     everybody who is logged in, going on for the patient's screen too, the rest for the page in charge.
+         */
+        post: operations["wish_of_game_api_sessions__session_id__game_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sessions/{session_id}/measured-range": {
         parameters: {
             query?: never;
@@ -590,6 +671,30 @@ export interface paths {
          *     the arm is engaged and moves freely.
          */
         post: operations["measure_range_api_sessions__session_id__measured_range_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sessions/{session_id}/workspace": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Workspace
+         * @description How far the healthy arm has shown, since the session was opened, that the games may ask the other to go.
+         */
+        get: operations["read_workspace_api_sessions__session_id__workspace_get"];
+        put?: never;
+        /**
+         * Take Workspace
+         * @description Let the games go by what has been shown; only for the page in charge, and only before the first game.
+         */
+        post: operations["take_workspace_api_sessions__session_id__workspace_post"];
         delete?: never;
         options?: never;
         head?: never;
@@ -927,6 +1032,12 @@ export interface components {
             connected: boolean;
         };
         /**
+         * Better
+         * @description In which direction a patient gets better; of the healthy hand's skill and of plain facts nothing is said.
+         * @enum {string}
+         */
+        Better: "more" | "less" | "";
+        /**
          * BodyView
          * @description The fused body.
          */
@@ -1216,6 +1327,16 @@ export interface components {
             pinned: boolean;
         };
         /**
+         * ExerciseView
+         * @description One exercise of the open session, as it begins.
+         */
+        ExerciseView: {
+            game: string;
+            level: number;
+            minutes: number;
+            pinned: boolean;
+        };
+        /**
          * ExoView
          * @description The exoskeleton: measured against commanded, per joint of `EXO_JOINTS`.
          */
@@ -1289,6 +1410,20 @@ export interface components {
             rotation: components["schemas"]["JointForce"];
         };
         /**
+         * GameAnswer
+         * @description How the game stood when the wish was taken; it is done with the next tick, as the stream shows.
+         * @example {
+         *       "game": "reach",
+         *       "phase": "playing"
+         *     }
+         */
+        GameAnswer: {
+            /** Game */
+            game: string;
+            /** Phase */
+            phase: string;
+        };
+        /**
          * GamePublic
          * @description A game that can be chosen.
          * @example {
@@ -1350,6 +1485,26 @@ export interface components {
                 number,
                 number
             ][];
+        };
+        /**
+         * GameWish
+         * @description What a person wants of the game.
+         * @example {
+         *       "level": 0.4,
+         *       "wish": "pin"
+         *     }
+         */
+        GameWish: {
+            /**
+             * Level
+             * @description With `pin`; null = as it is now.
+             */
+            level?: number | null;
+            /**
+             * Wish
+             * @enum {string}
+             */
+            wish: "start" | "pause" | "go_on" | "next" | "rest" | "quit" | "pin" | "adapt";
         };
         /**
          * JointCurves
@@ -1507,6 +1662,30 @@ export interface components {
             t_s: number;
         };
         /**
+         * MeasurePublic
+         * @description What a figure means, and how far it can be trusted.
+         */
+        MeasurePublic: {
+            better: components["schemas"]["Better"];
+            /** Filter */
+            filter: string;
+            /** Formula */
+            formula: string;
+            /** Label Key */
+            label_key: string;
+            mcid: components["schemas"]["PublishedChangePublic"] | null;
+            mdc: components["schemas"]["PublishedChangePublic"] | null;
+            /** Name */
+            name: string;
+            /** Source */
+            source: string;
+            trust: components["schemas"]["Trust"];
+            /** Trust Key */
+            trust_key: string;
+            /** Unit */
+            unit: string;
+        };
+        /**
          * MeasuredRange
          * @description How far each joint was moved while the drive only carried the arm.
          * @example {
@@ -1517,14 +1696,6 @@ export interface components {
             range: components["schemas"]["PassiveRange"] | null;
             /** Ticks */
             ticks: number;
-        };
-        /**
-         * MeasuredWorkspace
-         * @description The workspace of a session's games, as joint ranges of the affected arm.
-         */
-        MeasuredWorkspace: {
-            shown: components["schemas"]["PassiveRange"];
-            used: components["schemas"]["PassiveRange"];
         };
         /**
          * MetricPublic
@@ -2082,6 +2253,103 @@ export interface components {
             score: number;
         };
         /**
+         * Progress
+         * @description How a patient's figures went.
+         * @example {
+         *       "lines": [
+         *         {
+         *           "better": "more",
+         *           "joint": "elbow",
+         *           "label": "metric.own_range",
+         *           "mdc": 0.083,
+         *           "mdc_is_published": false,
+         *           "name": "own_range",
+         *           "points": [
+         *             {
+         *               "at": "2026-03-02T09:00:00Z",
+         *               "caveat": "",
+         *               "sem": 0.03,
+         *               "session_id": 3,
+         *               "value": 1.1
+         *             }
+         *           ],
+         *           "side": "left",
+         *           "trust": "good",
+         *           "trust_key": "trust.encoder",
+         *           "unit": "rad",
+         *           "verdict": "unknown"
+         *         }
+         *       ],
+         *       "sessions": 1
+         *     }
+         */
+        Progress: {
+            /** Lines */
+            lines: components["schemas"]["ProgressLine"][];
+            /** Sessions */
+            sessions: number;
+        };
+        /**
+         * ProgressLine
+         * @description One figure over the patient's sessions, oldest first; sessions without it are left out.
+         */
+        ProgressLine: {
+            better: components["schemas"]["Better"];
+            /** Difference */
+            difference: number | null;
+            /** Joint */
+            joint: string;
+            /** Label */
+            label: string;
+            /** Mdc */
+            mdc: number | null;
+            /** Mdc Is Published */
+            mdc_is_published: boolean;
+            /** Name */
+            name: string;
+            /** Points */
+            points: components["schemas"]["ProgressPoint"][];
+            /** Side */
+            side: string;
+            trust: components["schemas"]["Trust"];
+            /** Trust Key */
+            trust_key: string;
+            /** Unit */
+            unit: string;
+            verdict: components["schemas"]["Verdict"];
+        };
+        /**
+         * ProgressPoint
+         * @description A figure in one session.
+         */
+        ProgressPoint: {
+            /**
+             * At
+             * Format: date-time
+             */
+            at: string;
+            /** Caveat */
+            caveat: string;
+            /** Sem */
+            sem: number | null;
+            /** Session Id */
+            session_id: number;
+            /** Value */
+            value: number;
+        };
+        /**
+         * PublishedChangePublic
+         * @description A difference between two measurements that somebody has published.
+         */
+        PublishedChangePublic: {
+            /** Of Whom */
+            of_whom: string;
+            /** Source */
+            source: string;
+            /** Value */
+            value: number;
+        };
+        /**
          * ReplayForm
          * @description Which session is shown, and how it runs from now on.
          * @example {
@@ -2140,6 +2408,27 @@ export interface components {
          * @enum {string}
          */
         Role: "admin" | "therapist" | "screen";
+        /**
+         * ScalePublic
+         * @description A scale that a person scores.
+         */
+        ScalePublic: {
+            /** Highest */
+            highest: number;
+            /** Kind */
+            kind: string;
+            /** Lowest */
+            lowest: number;
+            /** Mcid */
+            mcid: components["schemas"]["PublishedChangePublic"][];
+            mdc: components["schemas"]["PublishedChangePublic"] | null;
+            /** Name */
+            name: string;
+            /** Source */
+            source: string;
+            /** Unit */
+            unit: string;
+        };
         /**
          * Screen
          * @description What kind of page looks.
@@ -2247,8 +2536,8 @@ export interface components {
              * @default
              */
             version: string;
-            /** @description Null = the games had the limits to go by. */
-            workspace?: components["schemas"]["MeasuredWorkspace"] | null;
+            /** @description Null in sessions from before it was kept. */
+            workspace?: components["schemas"]["SessionWorkspace"] | null;
         };
         /**
          * SessionEnd
@@ -2367,8 +2656,8 @@ export interface components {
              * @default
              */
             version: string;
-            /** @description Null = the games had the limits to go by. */
-            workspace?: components["schemas"]["MeasuredWorkspace"] | null;
+            /** @description Null in sessions from before it was kept. */
+            workspace?: components["schemas"]["SessionWorkspace"] | null;
         };
         /**
          * SessionStatus
@@ -2399,11 +2688,77 @@ export interface components {
             assist_level_most: number;
             authority: components["schemas"]["AuthorityView"] | null;
             elapsed_s: number;
-            game: string;
+            exercises: components["schemas"]["ExerciseView"][];
             id: number;
             patient: string;
+            patient_screens: number;
             phase: components["schemas"]["SessionPhase"];
+            screen_lost: boolean;
             started: string;
+        };
+        /**
+         * SessionWorkspace
+         * @description The workspace of a session's games.
+         */
+        SessionWorkspace: {
+            /**
+             * Pushed
+             * @default false
+             */
+            pushed: boolean;
+            shown?: components["schemas"]["PassiveRange"] | null;
+            /**
+             * Source
+             * @enum {string}
+             */
+            source: "shown" | "last" | "limits";
+            used: components["schemas"]["PassiveRange"];
+        };
+        /**
+         * SessionWorkspacePublic
+         * @description What has been shown, and what the games go by.
+         * @example {
+         *       "begun": false,
+         *       "enough": false,
+         *       "missing": [
+         *         "rotation",
+         *         "elbow"
+         *       ],
+         *       "seen_s": 2.5,
+         *       "workspace": {
+         *         "source": "limits",
+         *         "used": {
+         *           "elbow": {
+         *             "max_rad": 2.356194490192345,
+         *             "min_rad": 0
+         *           },
+         *           "elevation": {
+         *             "max_rad": 1.7453292519943295,
+         *             "min_rad": 0
+         *           },
+         *           "plane": {
+         *             "max_rad": 2.0943951023931953,
+         *             "min_rad": -0.3490658503988659
+         *           },
+         *           "rotation": {
+         *             "max_rad": 1.3962634015954636,
+         *             "min_rad": -1.0471975511965976
+         *           }
+         *         }
+         *       }
+         *     }
+         */
+        SessionWorkspacePublic: {
+            /** Begun */
+            begun: boolean;
+            /** Enough */
+            enough: boolean;
+            /** Missing */
+            missing: string[];
+            /** Seen S */
+            seen_s: number;
+            shown: components["schemas"]["PassiveRange"] | null;
+            workspace: components["schemas"]["SessionWorkspace"];
         };
         /**
          * Side
@@ -2583,6 +2938,18 @@ export interface components {
             tick_s: number;
             ticks_dropped: number;
         };
+        /**
+         * Trust
+         * @description How far a figure of these sensors can be trusted; the rule is in docs/metrics.md.
+         * @enum {string}
+         */
+        Trust: "good" | "fair" | "poor";
+        /**
+         * Verdict
+         * @description What can be said of the change from the first session to the last.
+         * @enum {string}
+         */
+        Verdict: "better" | "worse" | "changed" | "unchanged" | "unknown";
         /**
          * View3DColours
          * @description What each colour of the 3-D view is, as #rrggbb.
@@ -2824,6 +3191,44 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["AccountPublic"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
+    list_measures_api_metrics_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MeasurePublic"][];
                 };
             };
             /** @description Nobody is logged in */
@@ -3416,6 +3821,73 @@ export interface operations {
             };
         };
     };
+    read_progress_api_patients__patient_id__progress_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                patient_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Progress"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Not allowed from here, or not for this account */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description There is no such thing */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description The form is filled in wrongly */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
     list_scores_api_patients__patient_id__scores_get: {
         parameters: {
             query?: never;
@@ -3819,6 +4291,44 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Timeline"] | null;
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
+    list_scales_api_scales_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ScalePublic"][];
                 };
             };
             /** @description Nobody is logged in */
@@ -4649,6 +5159,71 @@ export interface operations {
             };
         };
     };
+    wish_of_game_api_sessions__session_id__game_post: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description What the page calls itself, the same as at its stream's opening. */
+                "Mirrorlimb-Client"?: string;
+            };
+            path: {
+                session_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["GameWish"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["GameAnswer"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Refused in the present state; the reason is in the detail */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description The form is filled in wrongly */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
     read_measured_range_api_sessions__session_id__measured_range_get: {
         parameters: {
             query?: never;
@@ -4750,6 +5325,143 @@ export interface operations {
             };
             /** @description There is no such thing */
             404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Refused in the present state; the reason is in the detail */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description The form is filled in wrongly */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
+    read_workspace_api_sessions__session_id__workspace_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                session_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionWorkspacePublic"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Not allowed from here, or not for this account */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Refused in the present state; the reason is in the detail */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description The form is filled in wrongly */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Something this machine must provide is missing */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+        };
+    };
+    take_workspace_api_sessions__session_id__workspace_post: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description What the page calls itself, the same as at its stream's opening. */
+                "Mirrorlimb-Client"?: string;
+            };
+            path: {
+                session_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionWorkspacePublic"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorResponse"];
+                };
+            };
+            /** @description Not allowed from here, or not for this account */
+            403: {
                 headers: {
                     [name: string]: unknown;
                 };
