@@ -3,7 +3,19 @@ import createClient from "openapi-fetch";
 import { t } from "../strings";
 import { clientId } from "./client-id";
 import type { paths } from "./schema";
-import type { Action, Assistance, ErrorDetail, PatientForm, PatientLimits, SessionOpen, View3dShown } from "./types";
+import type {
+  Action,
+  Assistance,
+  ErrorDetail,
+  PatientForm,
+  PatientLimits,
+  PlanForm,
+  ReplayForm,
+  ScoreForm,
+  SessionOpen,
+  SessionUpdate,
+  View3dShown,
+} from "./types";
 
 /** A refusal or a failure, as something a person can read and act upon. */
 export class Problem extends Error {
@@ -17,6 +29,7 @@ export class Problem extends Error {
 
 /** Nobody is logged in any more. */
 export const NOT_LOGGED_IN = 401;
+const NOT_FOUND = 404;
 const NO_ANSWER = 0;
 
 interface Reply<T> {
@@ -67,9 +80,27 @@ export const confirmLimits = (id: number, seen: PatientLimits) =>
 export const readHistory = (id: number) =>
   taken(http.GET("/api/patients/{patient_id}/sessions", { params: { path: { patient_id: id } } }));
 
+/** The patient's plan; null while there is none. */
+export const readPlan = (id: number) =>
+  taken(http.GET("/api/patients/{patient_id}/plan", { params: { path: { patient_id: id } } })).catch(nullWhereNone);
+export const putPlan = (id: number, form: PlanForm) =>
+  taken(http.PUT("/api/patients/{patient_id}/plan", { ...patient(id), body: form }));
+/** What was done of what was planned in the last `weeks` calendar weeks. */
+export const readAdherence = (id: number, weeks: number) =>
+  taken(http.GET("/api/patients/{patient_id}/adherence", { params: { path: { patient_id: id }, query: { weeks } } }));
+export const listScores = (id: number) => taken(http.GET("/api/patients/{patient_id}/scores", patient(id)));
+export const addScore = (id: number, form: ScoreForm) =>
+  taken(http.POST("/api/patients/{patient_id}/scores", { ...patient(id), body: form }));
+export const removeScore = (id: number, number: number) =>
+  taken(http.DELETE("/api/patients/{patient_id}/scores/{number}", { params: { path: { patient_id: id, number } } }));
+export const readToday = () => taken(http.GET("/api/today"));
+export const listGames = () => taken(http.GET("/api/games"));
+
 export const openSession = (form: SessionOpen) => taken(http.POST("/api/sessions", { body: form }));
 export const currentSession = () => taken(http.GET("/api/sessions/current"));
 export const readSession = (id: number) => taken(http.GET("/api/sessions/{session_id}", session(id)));
+export const changeSession = (id: number, form: SessionUpdate) =>
+  taken(http.PATCH("/api/sessions/{session_id}", { ...session(id), body: form }));
 export const readCurves = (id: number) => taken(http.GET("/api/sessions/{session_id}/curves", session(id)));
 export const readEvents = (id: number) => taken(http.GET("/api/sessions/{session_id}/events", session(id)));
 /** Asks for something of the arm; without an answer in `patience_ms` it counts as not answered. */
@@ -94,7 +125,21 @@ export const endSession = (id: number, painAfter: number | null) =>
 export const readView3d = () => taken(http.GET("/api/view3d"));
 export const showInView3d = (shown: View3dShown) => taken(http.PUT("/api/view3d", { body: shown }));
 
+/** Shows a past session, or changes how it runs. */
+export const playAgain = (form: ReplayForm) => taken(http.PUT("/api/replay", { body: form }));
+export const readReplay = () => taken(http.GET("/api/replay"));
+export const readTimeline = () => taken(http.GET("/api/replay/timeline"));
+
 export const readStation = () => taken(http.GET("/api/station"));
+
+function nullWhereNone(error: unknown): null {
+  if (error instanceof Problem && error.status === NOT_FOUND) return null;
+  throw error;
+}
+
+function patient(id: number) {
+  return { params: { path: { patient_id: id } } };
+}
 
 function session(id: number) {
   return { params: { path: { session_id: id } } };

@@ -5,6 +5,7 @@ import { t } from "../strings";
 import { FirstStart, LogIn } from "./entry";
 import { Frame } from "./frame";
 import { ASK_WHO, useAsked, useDoing, useLanguage, useRoute } from "./hooks";
+import { Later } from "./later";
 import { type Feed, useFeed } from "./live/feed";
 import { LivePage } from "./live/page";
 import { ChangePatient, EnrolPatient } from "./patient/form";
@@ -65,6 +66,16 @@ function Waiting({ status }: { status: InsideProps["status"] }) {
   );
 }
 
+/** Pages that are fetched when somebody goes there. */
+const LATER = {
+  plan: () => import("./plan/page").then(({ PlanPage }) => PlanPage),
+  progress: () => import("./progress/page").then(({ ProgressPage }) => ProgressPage),
+  scores: () => import("./scores/page").then(({ ScoresPage }) => ScoresPage),
+  "course-report": () => import("./report/course").then(({ CourseReport }) => CourseReport),
+  replay: () => import("./replay/page").then(({ ReplayPage }) => ReplayPage),
+  "session-report": () => import("./report/session").then(({ SessionReport }) => SessionReport),
+};
+
 interface PageProps {
   route: Route;
   feed: Feed;
@@ -83,6 +94,13 @@ function Page({ route, feed, account }: PageProps) {
       return <ChangePatient key={route.id} id={route.id} />;
     case "prepare":
       return <PreparePage key={route.id} id={route.id} />;
+    case "plan":
+    case "progress":
+    case "scores":
+    case "course-report":
+    case "replay":
+    case "session-report":
+      return <Later key={`${route.page} ${route.id}`} load={LATER[route.page]} id={route.id} />;
     case "live":
       return <LivePage feed={feed} account={account} />;
     case "summary":

@@ -42,15 +42,34 @@ export function secondsBetween(start: string | undefined, end: string | null | u
 
 export function dateAndTime(iso: string | undefined): string {
   if (!iso) return NOTHING;
-  return new Date(iso).toLocaleString(language() === "zh" ? "zh-CN" : "en-GB", {
-    dateStyle: "medium",
-    timeStyle: "short",
-  });
+  return new Date(iso).toLocaleString(locale(), { dateStyle: "medium", timeStyle: "short" });
+}
+
+/** A day, from a date without a time or from a moment. */
+export function dateText(iso: string | undefined): string {
+  return iso ? dayOf(iso).toLocaleDateString(locale(), { dateStyle: "medium" }) : NOTHING;
+}
+
+/** The day itself, at midnight here; a date without a time would else be taken for one in Greenwich. */
+export function dayOf(iso: string): Date {
+  if (iso.length > "2026-03-02".length) return new Date(iso);
+  const [year = 0, month = 1, day = 1] = iso.split("-").map(Number);
+  return new Date(year, month - 1, day);
+}
+
+/** A day as forms and the service write it, `2026-03-02`. */
+export function isoDay(day: Date): string {
+  const two = (value: number) => String(value).padStart(2, "0");
+  return `${day.getFullYear()}-${two(day.getMonth() + 1)}-${two(day.getDate())}`;
 }
 
 export function clockTime(iso: string | undefined): string {
   if (!iso) return NOTHING;
-  return new Date(iso).toLocaleTimeString(language() === "zh" ? "zh-CN" : "en-GB");
+  return new Date(iso).toLocaleTimeString(locale());
+}
+
+export function locale(): string {
+  return language() === "zh" ? "zh-CN" : "en-GB";
 }
 
 /** Something the service said, in the language chosen and with a capital at its head. */

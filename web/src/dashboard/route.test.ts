@@ -7,6 +7,12 @@ const ROUTES: Route[] = [
   { page: "patient", id: 3 },
   { page: "change-patient", id: 3 },
   { page: "prepare", id: 3 },
+  { page: "plan", id: 3 },
+  { page: "progress", id: 3 },
+  { page: "scores", id: 3 },
+  { page: "course-report", id: 3 },
+  { page: "replay", id: 41 },
+  { page: "session-report", id: 41 },
   { page: "live" },
   { page: "summary", id: 41 },
 ];

@@ -6,13 +6,25 @@ export type Route =
   | { page: "patient"; id: number }
   | { page: "change-patient"; id: number }
   | { page: "prepare"; id: number }
+  | { page: "plan"; id: number }
+  | { page: "progress"; id: number }
+  | { page: "scores"; id: number }
+  | { page: "course-report"; id: number }
   | { page: "live" }
-  | { page: "summary"; id: number };
+  | { page: "summary"; id: number }
+  | { page: "replay"; id: number }
+  | { page: "session-report"; id: number };
 
 const NUMBERED: readonly [RegExp, (id: number) => Route][] = [
   [/^patients\/(\d+)$/, (id) => ({ page: "patient", id })],
   [/^patients\/(\d+)\/change$/, (id) => ({ page: "change-patient", id })],
   [/^patients\/(\d+)\/session$/, (id) => ({ page: "prepare", id })],
+  [/^patients\/(\d+)\/plan$/, (id) => ({ page: "plan", id })],
+  [/^patients\/(\d+)\/progress$/, (id) => ({ page: "progress", id })],
+  [/^patients\/(\d+)\/scores$/, (id) => ({ page: "scores", id })],
+  [/^patients\/(\d+)\/report$/, (id) => ({ page: "course-report", id })],
+  [/^sessions\/(\d+)\/replay$/, (id) => ({ page: "replay", id })],
+  [/^sessions\/(\d+)\/report$/, (id) => ({ page: "session-report", id })],
   [/^sessions\/(\d+)$/, (id) => ({ page: "summary", id })],
 ];
 
@@ -41,6 +53,16 @@ export function hrefOf(route: Route): string {
       return `#/patients/${route.id}/change`;
     case "prepare":
       return `#/patients/${route.id}/session`;
+    case "plan":
+    case "progress":
+    case "scores":
+      return `#/patients/${route.id}/${route.page}`;
+    case "course-report":
+      return `#/patients/${route.id}/report`;
+    case "replay":
+      return `#/sessions/${route.id}/replay`;
+    case "session-report":
+      return `#/sessions/${route.id}/report`;
     case "live":
       return "#/live";
     case "summary":

@@ -7,6 +7,7 @@ import { ProblemBox } from "../problem";
 import { hrefOf } from "../route";
 import { History } from "./history";
 import { LimitsCard } from "./limits-card";
+import { PatientTabs } from "./tabs";
 import { Trend } from "./trend";
 
 export function PatientPage({ id }: { id: number }) {
@@ -16,6 +17,7 @@ export function PatientPage({ id }: { id: number }) {
     <main class="page">
       <ProblemBox problem={patient.problem ?? sessions.problem} onRetry={patient.again} />
       {patient.value && <Head patient={patient.value} />}
+      <PatientTabs id={id} at="patient" />
       {patient.value && !patient.value.limits_set_by && (
         <LimitsCard patient={patient.value} onConfirmed={patient.again} />
       )}

@@ -3,6 +3,7 @@ export const frame = {
   "app.name": "mirrorlimb",
   "app.disclaimer": "Research software, not a medical device.",
   "app.loading": "One moment …",
+  "app.not-fetched": "This page could not be fetched. Check that mirrorlimb is running, then load it again.",
   "app.version": "Version {version}",
   "nav.label": "Pages",
   "nav.patients": "Patients",

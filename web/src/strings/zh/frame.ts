@@ -5,6 +5,7 @@ export const frame: Record<keyof typeof english, string> = {
   "app.name": "mirrorlimb",
   "app.disclaimer": "科研软件，不是医疗器械。",
   "app.loading": "请稍候……",
+  "app.not-fetched": "无法获取此页面。请确认 mirrorlimb 正在运行，然后重新加载。",
   "app.version": "版本 {version}",
   "nav.label": "页面",
   "nav.patients": "患者",

@@ -1,0 +1,32 @@
+// 回放以往的治疗。
+import type { replay as english } from "../en/replay";
+
+export const replay: Record<keyof typeof english, string> = {
+  "replay.title": "回放：{name}",
+  "replay.summary": "查看数据",
+  "replay.open": "回放",
+  "replay.reading": "正在读取记录……",
+  "replay.view": "已记录治疗的三维视图",
+  "replay.controls": "回放",
+  "replay.play": "播放",
+  "replay.pause": "暂停",
+  "replay.position": "位置",
+  "replay.position.of": "{at} / {all}",
+  "replay.speed": "速度",
+  "replay.speed.times": "{speed}×",
+  "replay.before": "上一事件",
+  "replay.after": "下一事件",
+  "replay.line": "时间轴",
+  "replay.lane.state": "手臂",
+  "replay.lane.events": "事件",
+  "replay.events": "事件",
+  "replay.events.none": "没有标记的事件。",
+  "replay.mark.hit": "命中",
+  "replay.mark.missed": "未中",
+  "replay.mark.pain": "报告疼痛",
+  "replay.mark.hold": "保持",
+  "replay.mark.fault": "故障",
+  "replay.mark.stopped": "停止",
+  "replay.gone": "回放已关闭：无人观看、已开始新的治疗，或有人正在看另一次治疗。",
+  "replay.again": "重新显示",
+};

@@ -1,0 +1,30 @@
+// 由人员录入的标准量表评分。
+import type { scores as english } from "../en/scores";
+
+export const scores: Record<keyof typeof english, string> = {
+  "score.fugl-meyer-ue": "Fugl-Meyer 上肢",
+  "score.fugl-meyer-ue.what": "Fugl-Meyer 上肢运动功能评定：33 项，0–66 分，越高越好。",
+  "score.arat": "ARAT",
+  "score.arat.what": "上肢动作研究量表：19 项，0–57 分，越高越好。",
+  "score.box-and-block": "木块测试",
+  "score.box-and-block.what": "一分钟内移过的木块数，0–150，越多越好。",
+  "scores.title": "评分",
+  "scores.new": "录入评分",
+  "scores.none": "尚未录入评分。",
+  "scores.kind": "量表",
+  "scores.side": "受测手臂",
+  "scores.value": "得分（0 到 {most}）",
+  "scores.off-scale": "{name} 须为 0 到 {most} 之间的整数。",
+  "scores.on": "测试日期",
+  "scores.on.wrong": "请填测试当天的日期，不晚于今天。",
+  "scores.rater": "评定者",
+  "scores.note": "备注（可不填）",
+  "scores.save": "保存评分",
+  "scores.incomplete": "需要填写得分、日期和评定者。",
+  "scores.who": "{day}，{side}臂，评定者 {rater}",
+  "scores.remove": "删除",
+  "scores.remove.of": "删除 {day} 的 {name}",
+  "scores.remove.question": "要永久删除此评分吗？",
+  "scores.remove.yes": "删除",
+  "scores.remove.no": "保留",
+};
