@@ -2,12 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import socket
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, ExitStack, contextmanager
+from dataclasses import replace
 from pathlib import Path
+from threading import Event, Thread
 
 import pytest
 from playwright.sync_api import Browser, Page, sync_playwright
 
+from fusion.formats.registry import dialect_named
+from fusion.skeleton import Side
+from fusion.virtual_patient.bystander import Bystander, Visit
+from fusion.virtual_patient.patient import VirtualPatient
+from fusion.virtual_patient.trial import sensors_for
 from server.cli.browser import find_browser
 
 # Root in a container needs no-sandbox; the rest keeps Chromium from calling home.
@@ -19,6 +28,10 @@ ARGUMENTS = [
     "--no-first-run",
 ]
 SHOTS = Path(__file__).parents[2] / "test-results"
+STEP_S = 1 / 60
+ADDRESSES = ("127.0.0.41", "127.0.0.42")
+PATIENT, VISITOR = "72057594037930000", "72057594037939999"
+"""As long as a Kinect's own numbers."""
 
 
 # By module: Playwright's event loop must have ended before other tests ask for one of their own.
@@ -51,3 +64,54 @@ def shots() -> Path:
     """Folder for screenshots, kept out of the repository."""
     SHOTS.mkdir(exist_ok=True)
     return SHOTS
+
+
+class Crowd:
+    """Two virtual sensors that send real OSC of a patient and, once they have come, of somebody who stands beside."""
+
+    def __init__(self) -> None:
+        self._ended, self._visited = Event(), Event()
+
+    def visitor_comes(self) -> None:
+        """Somebody steps into view."""
+        self._visited.set()
+
+    def send(self, sockets: list[socket.socket]) -> None:
+        """Send until the end, in real time."""
+        dialect = dialect_named("kinectv2-osc")
+        patient, visitor = VirtualPatient(Side.RIGHT, 3), Bystander(Visit.STANDS, 4)
+        seen = [(PATIENT, patient, sensors_for(Side.RIGHT, 3)), (VISITOR, visitor, sensors_for(Side.RIGHT, 30))]
+        while not self._ended.wait(STEP_S):
+            for number, person, sensors in seen if self._visited.is_set() else seen[:1]:
+                positions = person.step(STEP_S)
+                for opened, sensor in zip(sockets, sensors, strict=True):
+                    sample = sensor.see(positions, patient.t_s)
+                    for datagram in dialect.encode(replace(sample, body=number), 0) if sample else ():
+                        opened.send(datagram)
+
+    def end(self) -> None:
+        """Nothing is sent any more."""
+        self._ended.set()
+
+
+@pytest.fixture
+def crowd() -> Callable[[int], AbstractContextManager[Crowd]]:
+    """Sends to a port for as long as its `with` block lasts."""
+
+    @contextmanager
+    def before_the_sensors(port: int) -> Iterator[Crowd]:
+        with ExitStack() as stack:
+            sockets = [stack.enter_context(socket.socket(socket.AF_INET, socket.SOCK_DGRAM)) for _ in ADDRESSES]
+            for opened, address in zip(sockets, ADDRESSES, strict=True):
+                opened.bind((address, 0))
+                opened.connect(("127.0.0.1", port))
+            people = Crowd()
+            sending = Thread(target=people.send, args=(sockets,))
+            sending.start()
+            try:
+                yield people
+            finally:
+                people.end()
+                sending.join()
+
+    return before_the_sensors

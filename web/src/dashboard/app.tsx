@@ -13,9 +13,12 @@ import { PatientPage } from "./patient/page";
 import { PatientList } from "./patients";
 import { ProblemBox } from "./problem";
 import type { Route } from "./route";
-import { PreparePage } from "./session/prepare";
 import { SummaryPage } from "./session/summary";
 import { StopBar } from "./stop/bar";
+import { WizardPage } from "./wizard/page";
+
+/** Pages that show the stop where it belongs on them. */
+const BRING_THEIR_STOP: readonly Route["page"][] = ["live", "prepare"];
 
 export function App() {
   useLanguage();
@@ -33,7 +36,7 @@ export function App() {
   return (
     <Frame account={account} at={account && placeOf(route)} version={status.value?.version ?? ""} onLogOut={leave}>
       <Inside status={status} route={route} feed={feed} problem={<ProblemBox problem={leaving.problem} />} />
-      {account && route.page !== "live" && <StopBar feed={feed} />}
+      {account && !BRING_THEIR_STOP.includes(route.page) && <StopBar feed={feed} />}
     </Frame>
   );
 }
@@ -93,7 +96,7 @@ function Page({ route, feed, account }: PageProps) {
     case "change-patient":
       return <ChangePatient key={route.id} id={route.id} />;
     case "prepare":
-      return <PreparePage key={route.id} id={route.id} />;
+      return <WizardPage key={route.id} id={route.id} feed={feed} account={account} />;
     case "plan":
     case "progress":
     case "scores":

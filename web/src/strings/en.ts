@@ -1,6 +1,8 @@
 // Everything the browser says, in English; a file per page in en/. zh/ has the same keys; a missing one does not compile.
 import { frame } from "./en/frame";
+import { gameCatch } from "./en/game-catch";
 import { gameReach } from "./en/game-reach";
+import { gameRow } from "./en/game-row";
 import { gameTrace } from "./en/game-trace";
 import { live } from "./en/live";
 import { patient } from "./en/patient";
@@ -19,6 +21,8 @@ export const en = {
   ...frame,
   ...gameReach,
   ...gameTrace,
+  ...gameRow,
+  ...gameCatch,
   ...wizard,
   ...scores,
   ...replay,

@@ -2,7 +2,9 @@
 
 import type { Key } from "./index";
 import { frame } from "./zh/frame";
+import { gameCatch } from "./zh/game-catch";
 import { gameReach } from "./zh/game-reach";
+import { gameRow } from "./zh/game-row";
 import { gameTrace } from "./zh/game-trace";
 import { live } from "./zh/live";
 import { patient } from "./zh/patient";
@@ -21,6 +23,8 @@ export const zh: Record<Key, string> = {
   ...frame,
   ...gameReach,
   ...gameTrace,
+  ...gameRow,
+  ...gameCatch,
   ...wizard,
   ...scores,
   ...replay,

@@ -3,10 +3,9 @@ import type { Session } from "../../api/types";
 import { t } from "../../strings";
 import { duration } from "../format";
 import { type Feed, useFromFeed } from "./feed";
+import { PlayLink } from "./play-link";
 import type { Question } from "./who";
 import "./aside.css";
-
-const PLAY_PAGE = "/play.html";
 
 interface Props {
   feed: Feed;
@@ -30,10 +29,7 @@ export function Aside({ feed, session, who, onEnd }: Props) {
       <button type="button" onClick={who.ask} aria-expanded={who.isShown} data-testid="ask-who">
         {who.isConfirmed ? `✓ ${t("who.confirmed")}` : t("who.title")}
       </button>
-      {/* no opener: a window that has one shares the dashboard's thread, and drawing would hold up its answers */}
-      <a class="button" href={PLAY_PAGE} target="_blank" rel="noopener" data-testid="open-play">
-        {t("live.play")}
-      </a>
+      <PlayLink />
       <button type="button" onClick={onEnd} data-testid="end-session">
         {t("session.end")}
       </button>

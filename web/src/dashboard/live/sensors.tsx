@@ -80,7 +80,8 @@ function stateOf(sensor: SensorView): string {
   return `✓ ${t(sensor.is_reference ? "sensor.reference" : "sensor.aligned")}`;
 }
 
-function NoSensor() {
+/** Where to send, and what to look at: nothing has come yet. */
+export function NoSensor() {
   const station = useAsked(readStation, "station");
   const ports = Object.entries(station.value?.ports ?? {});
   return (

@@ -3,12 +3,12 @@ import { useEffect, useState } from "preact/hooks";
 import { followBody } from "../../api/client";
 import type { SensorView } from "../../api/types";
 import { t } from "../../strings";
-import { sentence } from "../format";
 import { useDoing } from "../hooks";
 import { ProblemBox } from "../problem";
 import { type Feed, useFromFeed } from "./feed";
 import { FloorPlan } from "./floor-plan";
 import { bodyToChoose, isOpenQuestion, type Person, peopleOf } from "./people";
+import { PeopleList } from "./people-list";
 import "./who.css";
 
 export interface Question {
@@ -49,49 +49,10 @@ export function Who({ feed, session, onClose }: { feed: Feed; session: number; o
         {t("who.close")}
       </button>
       {people.length === 0 ? <p>{t("who.nobody")}</p> : <FloorPlan people={people} sensors={sensors} />}
-      <ul>
-        {people.map((person) => (
-          <Choice key={person.label} person={person} busy={doing.busy} onChoose={() => choose(person)} />
-        ))}
-      </ul>
+      <PeopleList people={people} busy={doing.busy} onChoose={choose} />
       <ProblemBox problem={doing.problem} onClose={doing.forget} />
     </section>
   );
-}
-
-function Choice({ person, busy, onChoose }: { person: Person; busy: boolean; onChoose: () => void }) {
-  return (
-    <li class={person.isPatient ? "who-patient" : ""} data-testid="person" data-bodies={numbersOf(person)}>
-      <span class="who-letter" aria-hidden="true">
-        {person.label}
-      </span>
-      <div>
-        <strong class="small">{wordOf(person)}</strong>
-        <div class="small soft">{sensorsOf(person)}</div>
-      </div>
-      {person.isConfirmed ? (
-        <span class="who-sure">✓ {t("who.confirmed")}</span>
-      ) : (
-        <button type="button" class={person.isPatient ? "primary" : ""} disabled={busy} onClick={onChoose}>
-          {t("who.choose", { person: person.label })}
-        </button>
-      )}
-    </li>
-  );
-}
-
-/** What the person is taken for, and why. */
-function wordOf(person: Person): string {
-  const body = bodyToChoose(person);
-  return person.isPatient ? t("who.followed") : sentence(body?.reason ?? "");
-}
-
-function numbersOf(person: Person): string {
-  return person.bodies.map(({ body }) => body).join(" ");
-}
-
-function sensorsOf(person: Person): string {
-  return t("who.seen", { sensors: person.bodies.map(({ sensor }) => sensor).join(", ") });
 }
 
 const NO_SENSORS: SensorView[] = [];

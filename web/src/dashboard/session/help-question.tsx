@@ -13,8 +13,8 @@ interface Props {
 
 export function HelpQuestion({ mode, level, most, onMode, onLevel }: Props) {
   return (
-    <section class="card">
-      <h2>{t("help.title")}</h2>
+    <section class="question">
+      <h3>{t("help.title")}</h3>
       <div class="choices">
         {ASSISTANCE.map((one) => (
           <button

@@ -12,8 +12,8 @@ interface SideProps {
 export function SideQuestion({ patient, side, onChoose }: SideProps) {
   const differs = side !== null && side === patient.healthy_side;
   return (
-    <section class="card">
-      <h2>{t("prepare.side")}</h2>
+    <section class="question">
+      <h3>{t("prepare.side")}</h3>
       <p class="soft">{t("prepare.side.hint")}</p>
       <div class="choices">
         {(["left", "right"] as const).map((one) => (
