@@ -1,6 +1,6 @@
 // The patient's affected arm as it is seen from their own eyes: sleeve, forearm, wristband and hand; or its ghost.
 import { Color, Group, Matrix4, Mesh, MeshLambertMaterial, TorusGeometry, Vector3 } from "three";
-import { handGeometry, type Side, WRIST_HALF_M } from "./hand-shape";
+import { handGeometry, ROUGH_STEP_M, type Side, WRIST_HALF_M } from "./hand-shape";
 import { type ArmPose, backOfHand, forearmOf, handDirectionOf } from "./limb-line";
 import { LimbTube, profile } from "./limb-tube";
 import { TableShadow } from "./table-shadow";
@@ -52,7 +52,7 @@ export class Arm {
   ) {
     const material = look === "solid" ? flesh : ghostly;
     this.hand = new Mesh(handGeometry(side), material(SKIN));
-    this.band = new Mesh(new TorusGeometry(1, 0.16, 8, 28), material(BAND));
+    this.band = new Mesh(new TorusGeometry(1, 0.16, 6, 20), material(BAND));
     const skin = new Mesh(this.skin.geometry, material(SKIN));
     const sleeve = new Mesh(this.sleeve.geometry, material(SLEEVE));
     for (const part of [skin, sleeve, this.hand, this.band]) {
@@ -62,7 +62,10 @@ export class Arm {
       this.group.add(part);
     }
     if (look === "ghost") return;
-    this.shadow = new TableShadow([skin, sleeve, this.hand]);
+    const roughHand = new Mesh(handGeometry(side, ROUGH_STEP_M));
+    roughHand.visible = false;
+    this.hand.add(roughHand);
+    this.shadow = new TableShadow([skin, sleeve, roughHand]);
     this.group.add(this.shadow.group);
   }
 

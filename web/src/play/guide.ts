@@ -62,7 +62,7 @@ export class Guide {
 
   constructor() {
     const paint = new MeshBasicMaterial({ color: new Color("#ffffff"), transparent: true, opacity: 0.9 });
-    this.dots = new InstancedMesh(new SphereGeometry(1, 10, 8), paint, DOTS);
+    this.dots = new InstancedMesh(new SphereGeometry(1, 8, 5), paint, DOTS);
     this.dots.frustumCulled = false;
     this.group.add(this.targetPlumb.group, this.handPlumb.group, this.dots);
   }

@@ -62,14 +62,17 @@ const PALM_HALF: Triple = [0.039, 0.046, 0.0125];
 const PALM_ROUNDING_M = 0.0122;
 /** Half-axes of the wrist, shared with the forearm that ends there. */
 export const WRIST_HALF_M = { across: 0.0275, through: 0.0205 } as const;
-const GRID_STEP_M = 0.0042;
+/** As fine as eyes see at a table's distance; half of all corners on the screen are the hand's. */
+const GRID_STEP_M = 0.0055;
+/** Enough for what is only seen as a shadow. */
+export const ROUGH_STEP_M = 0.009;
 
-/** The surface of one hand. */
-export function handGeometry(side: Side): BufferGeometry {
+/** The surface of one hand, in cells of `step_m`. */
+export function handGeometry(side: Side, step_m = GRID_STEP_M): BufferGeometry {
   const thumbwards = side === "left" ? 1 : -1;
   const bones = FINGERS.map(bonesOf);
   const distance: Distance = (mirroredX, y, z) => handDistance(bones, mirroredX * thumbwards, y, z);
-  return surfaceNets(distance, [-0.085, -0.05, -0.095], [0.085, 0.205, 0.035], GRID_STEP_M);
+  return surfaceNets(distance, [-0.085, -0.05, -0.095], [0.085, 0.205, 0.035], step_m);
 }
 
 /** Fingers stay apart from one another (plain minimum) and grow smoothly out of the palm. */

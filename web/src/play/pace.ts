@@ -1,11 +1,31 @@
-// Frames per second, and whether the picture must become coarser so that the arm keeps moving smoothly.
+// How many frames a second and how many pixels a machine can give: as much as it has, and less where it is busy.
 
-/** Slower than this share of the rate hoped for, for `SLOW_WINDOWS` windows in a row: the picture is to become coarser. */
-const SLOW_SHARE = 0.7;
+/** How much is asked of the machine: frames a second at most, and pixels drawn per pixel of the page, each way. */
+export interface Effort {
+  readonly fps: number;
+  readonly pixels: number;
+}
+
+/** Slower than this share of the rate asked for is slow. */
+const SLOW_SHARE = 0.8;
 const WINDOW_S = 1;
+/** So many slow windows in a row: less is asked for. */
 const SLOW_WINDOWS = 2;
+/** So many good windows in a row: more is tried; twice as many after each time that it was too much. */
+const GOOD_WINDOWS = 10;
+const MOST_GOOD_WINDOWS = 160;
 /** A pause this long is a hidden window or a sleeping tablet, not a slow screen. */
 const GAP_S = 0.5;
+
+/**
+ * What is asked for, from most to least: pixels go first, since a coarse arm that moves smoothly is still one's own, and
+ * only then frames.
+ */
+export function effortsOf(finest: number, software: boolean): readonly Effort[] {
+  const full = [1, 0.75, 0.5].map((share) => ({ fps: 60, pixels: Math.max(0.5, finest * share) }));
+  const sparing = [0.75, 0.5].map((share) => ({ fps: 30, pixels: Math.max(0.5, finest * share) }));
+  return software ? [...full, ...sparing] : [...full, ...sparing.slice(1)];
+}
 
 export class Pace {
   /** Frames per second over the last full window; 0 until there is one. */
@@ -13,11 +33,32 @@ export class Pace {
   private frames = 0;
   private window_s = 0;
   private slow = 0;
+  private good = 0;
+  private patience = GOOD_WINDOWS;
+  private strained = false;
   private last_s: number | null = null;
 
-  constructor(private readonly hoped_fps: number) {}
+  /** Begins with the effort of that index. */
+  constructor(
+    private readonly efforts: readonly Effort[],
+    private index: number,
+  ) {}
 
-  /** Counts a frame drawn at `now_s`; true when it has been too slow for too long. */
+  get effort(): Effort {
+    return this.efforts[this.index] ?? { fps: 30, pixels: 0.5 };
+  }
+
+  /** Whether a frame is due at `now_s`; a quarter early, since screens do not keep time exactly. */
+  isDue(now_s: number): boolean {
+    return this.last_s === null || now_s - this.last_s >= 0.75 / this.effort.fps;
+  }
+
+  /** Something else on this machine comes too late: this window counts as slow. */
+  strain(): void {
+    this.strained = true;
+  }
+
+  /** Counts a frame drawn at `now_s`; true when another effort is to be made from now on. */
   frame(now_s: number): boolean {
     const step_s = this.last_s === null ? GAP_S : now_s - this.last_s;
     this.last_s = now_s;
@@ -30,15 +71,28 @@ export class Pace {
   private restart(): false {
     this.frames = 0;
     this.window_s = 0;
+    this.strained = false;
     return false;
   }
 
   private closeWindow(): boolean {
     this.fps = this.frames / this.window_s;
+    const isSlow = this.strained || this.fps < SLOW_SHARE * this.effort.fps;
     this.restart();
-    this.slow = this.fps < SLOW_SHARE * this.hoped_fps ? this.slow + 1 : 0;
-    if (this.slow < SLOW_WINDOWS) return false;
+    this.slow = isSlow ? this.slow + 1 : 0;
+    this.good = isSlow ? 0 : this.good + 1;
+    if (this.slow >= SLOW_WINDOWS) return this.give(1);
+    return this.good >= this.patience && this.give(-1);
+  }
+
+  /** One effort less (1) or more (−1), where there is one. */
+  private give(less: 1 | -1): boolean {
     this.slow = 0;
+    this.good = 0;
+    const next = this.index + less;
+    if (next < 0 || next >= this.efforts.length) return false;
+    if (less === 1) this.patience = Math.min(2 * this.patience, MOST_GOOD_WINDOWS);
+    this.index = next;
     return true;
   }
 }

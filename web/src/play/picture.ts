@@ -8,7 +8,7 @@ import { HelpNote } from "./help-note";
 import { Hud } from "./hud";
 import { type Hands, Limbs } from "./limbs";
 import { Overlay } from "./overlay";
-import { Pace } from "./pace";
+import { effortsOf, Pace } from "./pace";
 import { reasonFor } from "./reason";
 import type { GameScene } from "./scene";
 import { SceneKeeper } from "./scene-keeper";
@@ -48,7 +48,8 @@ export class Picture {
     private readonly sound: Sound,
   ) {
     this.stage = new Stage(canvas, backdrop);
-    this.pace = new Pace(this.stage.hoped_fps);
+    this.pace = new Pace(effortsOf(this.stage.finest, this.stage.isSoftware), this.stage.isSoftware ? 1 : 0);
+    this.stage.sharpen(this.pace.effort.pixels);
     this.scenes = new SceneKeeper(sceneOf, (scene) => this.enter(scene));
     this.limbs = new Limbs((side) => {
       this.page.dataset.side = side;
@@ -64,6 +65,9 @@ export class Picture {
 
   /** Keeps a message that arrived at `now_s`. */
   take(message: LiveMessage, now_s: number): void {
+    if (this.stage.isSoftware && message.tick.timing.overruns > (this.newest?.tick.timing.overruns ?? Infinity)) {
+      this.pace.strain();
+    }
     this.newest = message;
     this.arrived_s = now_s;
     this.limbs.take(message.tick, now_s);
@@ -75,9 +79,9 @@ export class Picture {
     if (this.game) this.react(this.game, changes);
   }
 
-  /** Draws the moment `now_s`, unless the last frame is too young for a machine that must be spared. */
+  /** Draws the moment `now_s`, unless that is sooner than the machine can bear. */
   draw(access: Access, now_s: number): void {
-    if (now_s - this.last_s < this.stage.leastFrame_s) return;
+    if (!this.pace.isDue(now_s)) return;
     const dt_s = Math.min(LONGEST_STEP_S, now_s - this.last_s);
     this.last_s = now_s;
     const face = faceFor(access, this.newest, now_s - this.arrived_s);
@@ -87,7 +91,7 @@ export class Picture {
     this.helpNote.show(face, now_s);
     this.overlay.show(face, this.game, reasonFor(face, this.newest?.tick), now_s);
     this.stage.render();
-    if (this.pace.frame(now_s)) this.stage.coarsen();
+    if (this.pace.frame(now_s)) this.stage.sharpen(this.pace.effort.pixels);
     this.mark(face, hands.acting);
   }
 
@@ -137,6 +141,7 @@ export class Picture {
     dataset.phase = this.game?.phase ?? "";
     dataset.score = String(this.game?.score ?? 0);
     dataset.fps = this.pace.fps.toFixed(0);
+    dataset.pixels = String(this.pace.effort.pixels);
     dataset.hand = hand
       ? hand
           .toArray()

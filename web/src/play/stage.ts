@@ -22,23 +22,16 @@ const LOWEST_SIGHT_RAD = (67.5 * Math.PI) / 180;
 const HEIGHT_RAD = (71 * Math.PI) / 180;
 /** On narrow screens the picture keeps at least this width. */
 const LEAST_WIDTH_RAD = (74 * Math.PI) / 180;
-const FULL_FPS = 60;
 const FINEST_PIXELS = 1.5;
-/** Without a graphics card the processor draws, and the station may need it: half the frames, fewer pixels. */
-const SPARING_FPS = 30;
-const SPARING_PIXELS = 0.75;
-const COARSEST_PIXELS = 0.5;
-const COARSER = 0.75;
 
 export class Stage {
   /** What acts: drawn every frame. */
   readonly scene = new Scene();
   readonly camera = new PerspectiveCamera(71, 1, 0.05, 120);
   private readonly renderer: WebGLRenderer;
-  readonly hoped_fps: number;
-  /** No frame sooner than this after the last. */
-  readonly leastFrame_s: number;
-  private pixelRatio: number;
+  /** The processor draws, on which the station may run too. */
+  readonly isSoftware = drawsInSoftware();
+  private pixels: number;
   private scenery = new Scene();
 
   /**
@@ -49,13 +42,11 @@ export class Stage {
     private readonly canvas: HTMLCanvasElement,
     private readonly backdrop: HTMLCanvasElement,
   ) {
-    const sparing = drawsInSoftware();
-    this.hoped_fps = sparing ? SPARING_FPS : FULL_FPS;
-    // Three quarters of a frame: screens do not keep time exactly.
-    this.leastFrame_s = sparing ? 0.75 / SPARING_FPS : 0;
-    this.pixelRatio = sparing ? SPARING_PIXELS : Math.min(devicePixelRatio, FINEST_PIXELS);
+    this.pixels = this.finest;
+    // Smooth edges cost a processor more than they are worth.
+    const antialias = !this.isSoftware;
     const powerPreference = "high-performance";
-    this.renderer = new WebGLRenderer({ canvas, antialias: !sparing, alpha: true, stencil: true, powerPreference });
+    this.renderer = new WebGLRenderer({ canvas, antialias, alpha: true, stencil: true, powerPreference });
     this.scene.add(...lights());
     addEventListener("resize", () => this.fit());
     this.fit();
@@ -74,10 +65,15 @@ export class Stage {
     this.renderer.render(this.scene, this.camera);
   }
 
-  /** Draws fewer pixels for the sake of smooth movement. */
-  coarsen(): void {
-    this.pixelRatio = Math.max(COARSEST_PIXELS, this.pixelRatio * COARSER);
-    this.resize(this.pixelRatio);
+  /** Pixels per pixel of the page, each way, at which the picture is as sharp as it needs to be. */
+  get finest(): number {
+    return this.isSoftware ? 1 : Math.min(devicePixelRatio, FINEST_PIXELS);
+  }
+
+  /** Draws what acts with so many pixels; the scenery stays as it is. */
+  sharpen(pixels: number): void {
+    this.pixels = pixels;
+    this.resize(pixels);
   }
 
   /** Where a point of the trunk frame appears, in pixels of the page. */
@@ -104,11 +100,11 @@ export class Stage {
     this.backdrop.height = this.canvas.height;
     this.renderer.render(this.scenery, this.camera);
     this.backdrop.getContext("2d")?.drawImage(this.canvas, 0, 0);
-    this.resize(this.pixelRatio);
+    this.resize(this.pixels);
   }
 
-  private resize(pixelRatio: number): void {
-    this.renderer.setPixelRatio(pixelRatio);
+  private resize(pixels: number): void {
+    this.renderer.setPixelRatio(pixels);
     this.renderer.setSize(this.canvas.clientWidth, this.canvas.clientHeight, false);
   }
 }
@@ -120,7 +116,7 @@ function lights(): Object3D[] {
   return [sun, new HemisphereLight(new Color("#dff0ff"), new Color("#a9926c"), 1.9)];
 }
 
-/** Whether pictures are computed without a graphics card: smooth edges then cost more than they are worth. */
+/** Whether pictures are computed without a graphics card. */
 function drawsInSoftware(): boolean {
   const gl = document.createElement("canvas").getContext("webgl2");
   const names = gl?.getExtension("WEBGL_debug_renderer_info");
