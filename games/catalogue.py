@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Final
 
 from fusion.errors import InputError
-from games import catch, reach, row, trace
+from games import catch, everyday, reach, row, trace, wipe
 from games.game import GameSettings, Workspace
 from games.play import Play
 from games.rules import RulesFactory
@@ -16,6 +16,8 @@ GAMES: Final[Mapping[str, RulesFactory]] = {
     trace.NAME: trace.TraceRules,
     catch.NAME: catch.CatchRules,
     row.NAME: row.RowRules,
+    everyday.NAME: everyday.EverydayRules,
+    wipe.NAME: wipe.WipeRules,
 }
 
 

@@ -1,9 +1,11 @@
 // Everything the browser says, in English; a file per page in en/. zh/ has the same keys; a missing one does not compile.
 import { frame } from "./en/frame";
 import { gameCatch } from "./en/game-catch";
+import { gameEveryday } from "./en/game-everyday";
 import { gameReach } from "./en/game-reach";
 import { gameRow } from "./en/game-row";
 import { gameTrace } from "./en/game-trace";
+import { gameWipe } from "./en/game-wipe";
 import { live } from "./en/live";
 import { patient } from "./en/patient";
 import { plan } from "./en/plan";
@@ -23,6 +25,8 @@ export const en = {
   ...gameTrace,
   ...gameRow,
   ...gameCatch,
+  ...gameEveryday,
+  ...gameWipe,
   ...wizard,
   ...scores,
   ...replay,

@@ -3,9 +3,11 @@
 import type { Key } from "./index";
 import { frame } from "./zh/frame";
 import { gameCatch } from "./zh/game-catch";
+import { gameEveryday } from "./zh/game-everyday";
 import { gameReach } from "./zh/game-reach";
 import { gameRow } from "./zh/game-row";
 import { gameTrace } from "./zh/game-trace";
+import { gameWipe } from "./zh/game-wipe";
 import { live } from "./zh/live";
 import { patient } from "./zh/patient";
 import { plan } from "./zh/plan";
@@ -25,6 +27,8 @@ export const zh: Record<Key, string> = {
   ...gameTrace,
   ...gameRow,
   ...gameCatch,
+  ...gameEveryday,
+  ...gameWipe,
   ...wizard,
   ...scores,
   ...replay,

@@ -1,0 +1,93 @@
+"""What stands on the kitchen table of `everyday`, where, and where each thing has to be brought."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from fusion.kinematics.angles import OUTWARD
+from games.game import Point, Workspace
+from games.levels import between
+from games.nearest import nearest_reach
+from games.workspace import AWKWARD_M_PER_RAD, IN_FRONT_M, Reach, distance_m, reachable
+
+EASY_BLOCKS, HARD_BLOCKS = 2, 4
+BLOCK_M: Final = 0.07
+"""Height of a block: the tower's next place is this much higher."""
+EASY_APART_M, HARD_APART_M = 0.18, 0.38
+"""From one thing to the next."""
+CANDIDATES: Final = 96
+HIGHEST_M: Final = 0.18
+"""Things stand at least this far below the shoulder, as on a table ..."""
+LOWEST_M: Final = 0.36
+"""... and no lower than this, where the eyes still see them."""
+CROWDED_M: Final = 0.16
+MOUTH_M: Final = (0.05, 0.06, -0.22)
+"""The hand with a cup at the lips: outward from the midline; up and back from the shoulder."""
+OVER_CUP_M: Final = (0.08, 0.12, 0.0)
+"""The hand that pours, as (outward, up, back) from where it takes the cup."""
+
+
+@dataclass(frozen=True, slots=True)
+class Kitchen:
+    """Places of the hand: where it takes a thing, or sets it down. All are in reach."""
+
+    cup: Point
+    jug: Point
+    mouth: Point
+    over_cup: Point
+    blocks: tuple[Point, ...]
+    tower: tuple[Point, ...]
+    """One place per block, from the lowest."""
+
+
+def kitchen(workspace: Workspace, level: float, rng: np.random.Generator) -> Kitchen:
+    """Set the table: things drawn inside the reachable space, the further apart the higher the level.
+
+    Args:
+        workspace: where the hand can go.
+        level: difficulty 0..1.
+        rng: the game's own.
+    """
+    blocks = round(between(EASY_BLOCKS, HARD_BLOCKS, level))
+    candidates = reachable(workspace, CANDIDATES, rng)
+    places: list[Point] = []
+    for _ in range(3 + blocks):
+        places.append(_next(candidates, workspace, level, places))
+    cup, jug, base = places[:3]
+    side = OUTWARD[workspace.side]
+    return Kitchen(
+        cup=cup,
+        jug=jug,
+        mouth=_mouth(workspace),
+        over_cup=_near(workspace, cup, (side * OVER_CUP_M[0], *OVER_CUP_M[1:])),
+        blocks=tuple(places[3:]),
+        tower=tuple(_near(workspace, base, (0.0, BLOCK_M * k, 0.0)) for k in range(blocks)),
+    )
+
+
+def _next(candidates: list[Reach], workspace: Workspace, level: float, places: list[Point]) -> Point:
+    wanted_m = between(EASY_APART_M, HARD_APART_M, level)
+    return min(candidates, key=lambda reach: _cost(reach, workspace, wanted_m, places)).position
+
+
+def _cost(reach: Reach, workspace: Workspace, wanted_m: float, places: list[Point]) -> float:
+    """How far a place is from what is wanted, in metres; hidden, high or crowded costs more than a wrong way."""
+    _, y, z = (p - s for p, s in zip(reach.position, workspace.shoulder, strict=True))
+    hidden_m = max(z + IN_FRONT_M, 0.0) + max(y + HIGHEST_M, 0.0) + max(-LOWEST_M - y, 0.0)
+    crowded_m = sum(max(CROWDED_M - distance_m(reach.position, place), 0.0) for place in places)
+    way_m = abs(distance_m(reach.position, places[-1]) - wanted_m) if places else 0.0
+    return way_m + 20.0 * hidden_m + 15.0 * crowded_m + AWKWARD_M_PER_RAD * abs(reach.pose_rad[2])
+
+
+def _mouth(workspace: Workspace) -> Point:
+    outward, up, back = MOUTH_M
+    _, y, z = workspace.shoulder
+    return nearest_reach(workspace, (OUTWARD[workspace.side] * outward, y + up, z + back)).position
+
+
+def _near(workspace: Workspace, place: Point, step: Point) -> Point:
+    x, y, z = (a + b for a, b in zip(place, step, strict=True))
+    return nearest_reach(workspace, (x, y, z)).position

@@ -1,0 +1,67 @@
+"""The set table: everything in reach and apart, the mouth near the mouth, the tower upright."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from itertools import combinations, pairwise
+
+import numpy as np
+import pytest
+
+from fusion.skeleton import Side
+from games.game import Point, Workspace
+from games.kitchen import BLOCK_M, EASY_BLOCKS, HARD_BLOCKS, HIGHEST_M, LOWEST_M, Kitchen, kitchen
+from games.nearest import HERE_M, nearest_reach
+from games.workspace import IN_FRONT_M, distance_m
+
+
+def set_tables(workspace: Workspace, level: float = 0.5) -> list[Kitchen]:
+    return [kitchen(workspace, level, np.random.default_rng(seed)) for seed in range(8)]
+
+
+def standing(table: Kitchen) -> list[Point]:
+    return [table.cup, table.jug, table.tower[0], *table.blocks]
+
+
+@pytest.mark.parametrize("side", list(Side))
+def test_every_place_of_the_hand_is_in_reach(workspace_of: Callable[[Side], Workspace], side: Side) -> None:
+    workspace = workspace_of(side)
+    for table in set_tables(workspace):
+        for place in (*standing(table), *table.tower, table.mouth, table.over_cup):
+            assert distance_m(nearest_reach(workspace, place).position, place) <= 0.01
+
+
+def test_things_stand_apart_in_sight_and_below_the_shoulder(usual: Workspace) -> None:
+    for table in set_tables(usual, 1.0):
+        assert min(distance_m(a, b) for a, b in combinations(standing(table), 2)) > 0.11
+        for _, y, z in standing(table):
+            assert -LOWEST_M - 0.05 < y - usual.shoulder[1] < -HIGHEST_M + 0.05
+            assert z - usual.shoulder[2] < -IN_FRONT_M + 0.05
+
+
+def test_the_mouth_is_the_mouth_where_the_elbow_bends_far_enough(usual: Workspace) -> None:
+    supple = Workspace(
+        usual.side, usual.shoulder, usual.upper_arm_m, usual.forearm_m, (-0.5, 2.2), (0.0, 1.8), (-1.2, 1.5), (0.0, 2.7)
+    )
+    mouth = set_tables(supple)[0].mouth
+    assert distance_m(mouth, (0.05, 0.06, -0.22)) <= HERE_M
+    assert distance_m(set_tables(usual)[0].mouth, (0.05, 0.06, -0.22)) < 0.15
+
+
+def test_a_tower_grows_by_a_block_where_the_arm_gets_that_high(usual: Workspace) -> None:
+    for table in set_tables(usual):
+        for lower, upper in pairwise(table.tower):
+            assert distance_m(lower, upper) == pytest.approx(BLOCK_M, abs=0.02)
+
+
+def test_a_higher_level_sets_more_blocks_further_apart(usual: Workspace) -> None:
+    easy, hard = set_tables(usual, 0.0), set_tables(usual, 1.0)
+    assert {len(table.blocks) for table in easy} == {EASY_BLOCKS}
+    assert {len(table.blocks) for table in hard} == {HARD_BLOCKS}
+    apart = [np.mean([distance_m(table.cup, table.jug) for table in tables]) for tables in (easy, hard)]
+    assert apart[1] > 1.3 * apart[0]
+
+
+def test_an_arm_that_cannot_move_still_gets_a_table() -> None:
+    fixed = Workspace(Side.LEFT, (0, 0, 0), 0.28, 0.33, (0.9, 0.9), (0.9, 0.9), (0.0, 0.0), (1.0, 1.0))
+    assert all(np.isfinite(place).all() for place in standing(set_tables(fixed)[0]))
