@@ -27,6 +27,8 @@ BEND_M: Final = 0.3
 """What a path costs that winds e times as much as asked, or as little."""
 OUTSIDE: Final = 10.0
 """What it costs per metre to lead where the patient hardly sees it or where it tires."""
+DEEP: Final = 0.5
+"""What it costs per metre to lead to or from the trunk: there the arm hides the path from the eyes that lead it."""
 TWIST_M_PER_RAD: Final = 0.02
 """What a turned humerus costs: people reach with the elbow hanging."""
 
@@ -85,7 +87,8 @@ def _cost(workspace: Workspace, poses_rad: Floats, length_m: float, winding: flo
     short_m = max(length_m - line.length_m, 0.0)
     bend_m = BEND_M * abs(log(line.winding / winding))
     twist_m = TWIST_M_PER_RAD * float(np.abs(poses_rad[:, 2]).max())
-    return short_m + bend_m + twist_m + OUTSIDE * _outside_m(workspace, line.points)
+    deep_m = DEEP * float(np.abs(np.diff(line.points[:, 2])).sum())
+    return short_m + bend_m + twist_m + deep_m + OUTSIDE * _outside_m(workspace, line.points)
 
 
 def _outside_m(workspace: Workspace, hands: Floats) -> float:

@@ -1,7 +1,9 @@
 // The water lily at a path's end, and round it an arc that says how much of the time is left.
 import {
+  type BufferGeometry,
   Color,
   DoubleSide,
+  GreaterDepth,
   Group,
   Mesh,
   MeshBasicMaterial,
@@ -9,6 +11,7 @@ import {
   RingGeometry,
   SphereGeometry,
 } from "three";
+import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
 import type { ThingView } from "../../changes";
 import type { Moment } from "../../scene";
 
@@ -46,20 +49,24 @@ export class Flower {
   }
 }
 
-/** Petals in a circle, raised by `lift_rad` and turned by a share of the step between two. */
-function petals(count: number, lift_rad: number, color: string, turn: number): Group[] {
+/** Petals in a circle, raised by `lift_rad` and turned by a share of the step between two; and what shows of them
+ * through an arm before them. */
+function petals(count: number, lift_rad: number, color: string, turn: number): Mesh[] {
+  const shape = mergeGeometries(
+    Array.from({ length: count }, (_, i) => petal(lift_rad, ((i + turn) * 2 * Math.PI) / count)),
+  );
+  const tint = new Color(color);
+  const paint = new MeshPhongMaterial({ color: tint, emissive: tint.clone().multiplyScalar(0.25) });
+  const through = new MeshBasicMaterial({ color: tint, transparent: true, opacity: 0.45, depthWrite: false });
+  through.depthFunc = GreaterDepth;
+  return [new Mesh(shape, paint), new Mesh(shape, through)];
+}
+
+function petal(lift_rad: number, turn_rad: number): BufferGeometry {
   const shape = new SphereGeometry(PETAL_M / 2, 8, 6);
   shape.scale(1, 0.22, 0.46);
   shape.translate(PETAL_M / 2, 0, 0);
-  const paint = new MeshPhongMaterial({ color: new Color(color), emissive: new Color(color).multiplyScalar(0.25) });
-  return Array.from({ length: count }, (_, i) => {
-    const petal = new Mesh(shape, paint);
-    petal.rotation.z = lift_rad;
-    const holder = new Group();
-    holder.rotation.y = ((i + turn) * 2 * Math.PI) / count;
-    holder.add(petal);
-    return holder;
-  });
+  return shape.rotateZ(lift_rad).rotateY(turn_rad);
 }
 
 function heart(): Mesh {
