@@ -10,11 +10,11 @@ import { type Feed, useFeed } from "./live/feed";
 import { LivePage } from "./live/page";
 import { ChangePatient, EnrolPatient } from "./patient/form";
 import { PatientPage } from "./patient/page";
-import { PatientList } from "./patients";
 import { ProblemBox } from "./problem";
 import type { Route } from "./route";
 import { SummaryPage } from "./session/summary";
 import { StopBar } from "./stop/bar";
+import { TodayPage } from "./today/page";
 import { WizardPage } from "./wizard/page";
 
 /** Pages that show the stop where it belongs on them. */
@@ -88,7 +88,7 @@ interface PageProps {
 function Page({ route, feed, account }: PageProps) {
   switch (route.page) {
     case "patients":
-      return <PatientList />;
+      return <TodayPage />;
     case "enrol":
       return <EnrolPatient />;
     case "patient":

@@ -13,6 +13,7 @@ import { play } from "./en/play";
 import { replay } from "./en/replay";
 import { scores } from "./en/scores";
 import { session } from "./en/session";
+import { today } from "./en/today";
 import { wizard } from "./en/wizard";
 
 export const en = {
@@ -28,6 +29,7 @@ export const en = {
   ...gameEveryday,
   ...gameWipe,
   ...wizard,
+  ...today,
   ...scores,
   ...replay,
   ...plan,

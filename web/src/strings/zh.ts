@@ -15,6 +15,7 @@ import { play } from "./zh/play";
 import { replay } from "./zh/replay";
 import { scores } from "./zh/scores";
 import { session } from "./zh/session";
+import { today } from "./zh/today";
 import { wizard } from "./zh/wizard";
 
 export const zh: Record<Key, string> = {
@@ -30,6 +31,7 @@ export const zh: Record<Key, string> = {
   ...gameEveryday,
   ...gameWipe,
   ...wizard,
+  ...today,
   ...scores,
   ...replay,
   ...plan,

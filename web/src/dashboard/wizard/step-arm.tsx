@@ -38,7 +38,7 @@ function Today({ plan, patient, answers, answer }: Pick<StepProps, "plan" | "pat
       <h3>{t("programme.title")}</h3>
       <p class="soft small">
         {t(plan ? "programme.planned" : "programme.unplanned")}{" "}
-        <a href={hrefOf({ page: "patient", id: patient.id })}>{t(plan ? "programme.plan" : "programme.make")}</a>
+        <a href={hrefOf({ page: "plan", id: patient.id })}>{t(plan ? "programme.plan" : "programme.make")}</a>
       </p>
       <Programme
         games={games.value?.map(({ name }) => name) ?? []}

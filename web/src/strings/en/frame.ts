@@ -6,7 +6,7 @@ export const frame = {
   "app.not-fetched": "This page could not be fetched. Check that mirrorlimb is running, then load it again.",
   "app.version": "Version {version}",
   "nav.label": "Pages",
-  "nav.patients": "Patients",
+  "nav.patients": "Today",
   "nav.live": "Live session",
   "language.label": "Language",
   "action.save": "Save",

@@ -1,6 +1,5 @@
 // Patients.
 export const patient = {
-  "patients.title": "Patients",
   "patients.new": "New patient",
   "patients.none": "There is no patient yet. Create the first one with the button above.",
   "patient.new": "New patient",

@@ -8,7 +8,7 @@ export const frame: Record<keyof typeof english, string> = {
   "app.not-fetched": "无法获取此页面。请确认 mirrorlimb 正在运行，然后重新加载。",
   "app.version": "版本 {version}",
   "nav.label": "页面",
-  "nav.patients": "患者",
+  "nav.patients": "今天",
   "nav.live": "当前治疗",
   "language.label": "语言",
   "action.save": "保存",

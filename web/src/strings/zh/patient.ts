@@ -2,7 +2,6 @@
 import type { patient as english } from "../en/patient";
 
 export const patient: Record<keyof typeof english, string> = {
-  "patients.title": "患者",
   "patients.new": "新建患者",
   "patients.none": "还没有患者。请用上方按钮新建。",
   "patient.new": "新建患者",

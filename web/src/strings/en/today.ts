@@ -1,0 +1,21 @@
+// The first page: whose session is due today.
+export const today = {
+  "today.title": "Today, {day}",
+  "today.open": "A session is open",
+  "today.due": "Due today: {count}",
+  "today.due.none": "No plan asks for a session today.",
+  "today.others": "Other patients",
+  "today.all": "Patients",
+  "today.search": "Find a patient",
+  "today.nobody": "No patient's name has “{name}” in it.",
+  "today.start.for": "Open session: {name}",
+  "today.minutes": "{minutes} min",
+  "today.week": "{done} of {planned} this week",
+  "today.last": "last session {day}, played {minutes} min",
+  "today.last.none": "no session yet",
+  "today.plan.none": "No plan yet: the session begins with six minutes of one game.",
+  "today.plan.later": "the plan has not begun",
+  "today.plan.over": "the plan is over",
+  "today.plan.week": "week {week} of {weeks}",
+  "today.limits": "Look and confirm",
+} as const;
