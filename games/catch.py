@@ -1,11 +1,11 @@
-"""Catching: a lantern drifts in on the breeze and sinks to a place; be there with the hand when it comes.
+"""Catching: a butterfly drifts in on the breeze and sinks to a place; be there with the hand when it comes.
 
-Things of its scene, two to a lantern:
-    "lantern": where it is now. `progress` 0..1 of its flight. `state` "flying", or "here" while it hangs in its place.
+Things of its scene, two to a butterfly:
+    "butterfly": where it is now. `progress` 0..1 of its flight. `state` "flying", or "here" while it hangs in its place.
     "place": where it comes down and how near the hand must be (`radius_m`); shown once it is announced. `progress`
         0..1 of the time from the announcement to the arrival. `state` "coming", or "here".
 
-Feedback of its own: "in_time" where the hand was there before the lantern.
+Feedback of its own: "in_time" where the hand was there before the butterfly.
 """
 
 from __future__ import annotations
@@ -29,14 +29,14 @@ EASY_LINGER_S, HARD_LINGER_S = 2.0, 0.1
 EASY_RADIUS_M, HARD_RADIUS_M = 0.1, 0.05
 
 PAUSE_S: Final = 0.9
-"""Between two lanterns."""
+"""Between two butterflies."""
 POINTS, IN_TIME_POINTS = 10, 2
 RECENT: Final = 4
 
 FROM_AHEAD_M: Final = (1.1, 1.7)
 FROM_ASIDE_M: Final = (0.35, 0.85)
 FROM_ABOVE_SHOULDER_M: Final = 0.36
-"""A lantern sets out this high, where the eyes see it at its distance."""
+"""A butterfly sets out this high, where the eyes see it at its distance."""
 SINKS_M: Final = 0.2
 """The last of its way leads straight down, so that it never flies at the patient."""
 SETTLING: Final = 1.6
@@ -45,7 +45,7 @@ SETTLING: Final = 1.6
 
 @dataclass(frozen=True, slots=True)
 class Demands:
-    """What one lantern asks."""
+    """What one butterfly asks."""
 
     flight_s: float
     """From its appearing to its arrival."""
@@ -58,7 +58,7 @@ class Demands:
 
 
 def demands(level: float) -> Demands:
-    """What a lantern asks at a level in 0..1: quicker, smaller, with less notice and less patience."""
+    """What a butterfly asks at a level in 0..1: quicker, smaller, with less notice and less patience."""
     return Demands(
         flight_s=evenly_between(EASY_FLIGHT_S, HARD_FLIGHT_S, level),
         notice_s=evenly_between(EASY_NOTICE_S, HARD_NOTICE_S, level),
@@ -68,8 +68,8 @@ def demands(level: float) -> Demands:
 
 
 @dataclass(frozen=True, slots=True)
-class Lantern:
-    """A lantern on its way."""
+class Butterfly:
+    """A butterfly on its way."""
 
     number: int
     corners: tuple[Point, Point, Point, Point]
@@ -105,7 +105,7 @@ class Lantern:
         """Whether it has waited long enough."""
         return self.age_s >= self.demands.flight_s + self.demands.linger_s
 
-    def later(self, hand: Point) -> Lantern:
+    def later(self, hand: Point) -> Butterfly:
         """One even step later, with the hand at `hand`."""
         older = replace(self, steps=self.steps + 1)
         if self.off_at_arrival_m is None and older.has_arrived:
@@ -119,7 +119,7 @@ class Lantern:
 
 
 class CatchRules:
-    """The lanterns, one after the other; an attempt lasts from the announcement of a place.
+    """The butterflies, one after the other; an attempt lasts from the announcement of a place.
 
     Args:
         workspace: where the hand can go.
@@ -129,48 +129,48 @@ class CatchRules:
     def __init__(self, workspace: Workspace, rng: np.random.Generator) -> None:
         self._workspace, self._rng = workspace, rng
         self._steps = EvenSteps()
-        self._lantern: Lantern | None = None
+        self._butterfly: Butterfly | None = None
         self._count = 0
         self._recent: tuple[Point, ...] = ()
         self._pause_steps = 0
 
     def step(self, given: PlayInput) -> tuple[Ended, ...]:
-        """Advance by `given.dt_s`; the lanterns that were caught or missed."""
+        """Advance by `given.dt_s`; the butterflies that were caught or missed."""
         ended = [self._stepped(moment.hand, given.level) for moment in self._steps.take(given)]
         return tuple(one for one in ended if one is not None)
 
     def scene(self) -> SceneView:
         """What is to be drawn now."""
-        lantern = self._lantern
-        if lantern is None:
+        butterfly = self._butterfly
+        if butterfly is None:
             return SceneView(0, (), None)
-        if not lantern.is_announced:
-            return SceneView(0, (_lantern_view(lantern),), None)
-        return SceneView(lantern.number, (_lantern_view(lantern), _place_view(lantern)), lantern.place)
+        if not butterfly.is_announced:
+            return SceneView(0, (_butterfly_view(butterfly),), None)
+        return SceneView(butterfly.number, (_butterfly_view(butterfly), _place_view(butterfly)), butterfly.place)
 
     def clear(self) -> None:
         """The round is over."""
-        self._lantern, self._pause_steps = None, 0
+        self._butterfly, self._pause_steps = None, 0
         self._steps.forget()
 
     def _stepped(self, hand: Point, level: float) -> Ended | None:
         """One even step."""
-        if self._lantern is None:
+        if self._butterfly is None:
             self._pause_steps -= 1
             if self._pause_steps <= 0:
-                self._lantern = self._next_lantern(hand, level)
+                self._butterfly = self._next_butterfly(hand, level)
             return None
-        self._lantern = self._lantern.later(hand)
-        ended = _outcome(self._lantern, hand)
+        self._butterfly = self._butterfly.later(hand)
+        ended = _outcome(self._butterfly, hand)
         if ended is not None:
-            self._lantern, self._pause_steps = None, round(PAUSE_S / STEP_S)
+            self._butterfly, self._pause_steps = None, round(PAUSE_S / STEP_S)
         return ended
 
-    def _next_lantern(self, hand: Point, level: float) -> Lantern:
+    def _next_butterfly(self, hand: Point, level: float) -> Butterfly:
         place = next_reach(self._workspace, level, hand, self._recent, self._rng).position
         self._recent = (*self._recent, place)[-RECENT:]
         self._count += 1
-        return Lantern(self._count, self._way_to(place), demands(level))
+        return Butterfly(self._count, self._way_to(place), demands(level))
 
     def _way_to(self, place: Point) -> tuple[Point, Point, Point, Point]:
         """A curve from the far distance, on one side, that ends straight down in its place."""
@@ -183,16 +183,16 @@ class CatchRules:
         return start, drifting, above, place
 
 
-def _outcome(lantern: Lantern, hand: Point) -> Ended | None:
+def _outcome(butterfly: Butterfly, hand: Point) -> Ended | None:
     """Caught, missed, or None while neither is certain."""
-    if not lantern.has_arrived:
+    if not butterfly.has_arrived:
         return None
-    error_m, radius_m = lantern.off_at_arrival_m, lantern.demands.radius_m
-    if distance_m(hand, lantern.place) <= radius_m:
+    error_m, radius_m = butterfly.off_at_arrival_m, butterfly.demands.radius_m
+    if distance_m(hand, butterfly.place) <= radius_m:
         in_time = error_m is not None and error_m <= radius_m
         points, said = (POINTS + IN_TIME_POINTS, ("in_time",)) if in_time else (POINTS, ())
         return Ended(True, points, error_m=error_m, feedback=said)
-    return Ended(False, 0, error_m=error_m) if lantern.is_over else None
+    return Ended(False, 0, error_m=error_m) if butterfly.is_over else None
 
 
 def _on_curve(corners: tuple[Point, Point, Point, Point], share: float) -> Point:
@@ -202,13 +202,15 @@ def _on_curve(corners: tuple[Point, Point, Point, Point], share: float) -> Point
     return on_the_way(on_the_way(ab, bc, share), on_the_way(bc, cd, share), share)
 
 
-def _lantern_view(lantern: Lantern) -> ThingView:
-    share = min(lantern.age_s / lantern.demands.flight_s, 1.0)
-    state = "here" if lantern.has_arrived else "flying"
-    return ThingView(2 * lantern.number - 1, "lantern", lantern.position(), lantern.demands.radius_m, share, state)
+def _butterfly_view(butterfly: Butterfly) -> ThingView:
+    share = min(butterfly.age_s / butterfly.demands.flight_s, 1.0)
+    state = "here" if butterfly.has_arrived else "flying"
+    return ThingView(
+        2 * butterfly.number - 1, "butterfly", butterfly.position(), butterfly.demands.radius_m, share, state
+    )
 
 
-def _place_view(lantern: Lantern) -> ThingView:
-    left_s = max(lantern.demands.flight_s - lantern.age_s, 0.0)
-    share, state = 1.0 - left_s / lantern.demands.notice_s, "here" if lantern.has_arrived else "coming"
-    return ThingView(2 * lantern.number, "place", lantern.place, lantern.demands.radius_m, share, state)
+def _place_view(butterfly: Butterfly) -> ThingView:
+    left_s = max(butterfly.demands.flight_s - butterfly.age_s, 0.0)
+    share, state = 1.0 - left_s / butterfly.demands.notice_s, "here" if butterfly.has_arrived else "coming"
+    return ThingView(2 * butterfly.number, "place", butterfly.place, butterfly.demands.radius_m, share, state)

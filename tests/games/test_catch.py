@@ -1,4 +1,4 @@
-"""Rules of catching: lanterns that come down, hands that are there in time, what a level asks."""
+"""Rules of catching: butterflies that come down, hands that are there in time, what a level asks."""
 
 from __future__ import annotations
 
@@ -47,22 +47,22 @@ def thing(rules: CatchRules, kind: str) -> ThingView | None:
 
 
 def ended_with(rules: CatchRules, hand: Point | None, level: float = 0.2) -> Ended:
-    """How a lantern ends for a hand that stays away until the place is known and then is there, if `hand` is None."""
+    """How a butterfly ends for a hand that stays away until the place is known and then is there, if `hand` is None."""
     for _ in range(400):
         aim = rules.scene().aim
         there = FAR if aim is None else aim
         ended = stepped(rules, hand or there, level)
         if ended:
             return ended[0]
-    pytest.fail("no lantern ended within 20 s")
+    pytest.fail("no butterfly ended within 20 s")
 
 
-def test_a_hand_that_waits_in_the_place_catches_the_lantern_in_time(rules: CatchRules) -> None:
+def test_a_hand_that_waits_in_the_place_catches_the_butterfly_in_time(rules: CatchRules) -> None:
     ended = ended_with(rules, None)
     assert ended == Ended(True, POINTS + IN_TIME_POINTS, error_m=0.0, feedback=("in_time",))
 
 
-def test_a_hand_that_comes_while_the_lantern_hangs_there_catches_it_late(rules: CatchRules) -> None:
+def test_a_hand_that_comes_while_the_butterfly_hangs_there_catches_it_late(rules: CatchRules) -> None:
     for _ in range(400):
         place = thing(rules, "place")
         late = place is not None and place.state == "here"
@@ -74,10 +74,10 @@ def test_a_hand_that_comes_while_the_lantern_hangs_there_catches_it_late(rules: 
     assert ended[0].error_m > EASY_RADIUS_M
 
 
-def test_a_lantern_nobody_catches_is_gone_without_points_and_tells_how_far_the_hand_was(rules: CatchRules) -> None:
+def test_a_butterfly_nobody_catches_is_gone_without_points_and_tells_how_far_the_hand_was(rules: CatchRules) -> None:
     stepped(rules)
-    lantern = thing(rules, "lantern")
-    assert lantern is not None
+    butterfly = thing(rules, "butterfly")
+    assert butterfly is not None
     ended = ended_with(rules, FAR)
     assert (ended.success, ended.points) == (False, 0)
     assert ended.error_m == pytest.approx(distance_m(FAR, (0.0, 0.0, 0.0)), abs=1.0)
@@ -93,16 +93,16 @@ def test_touching_the_place_and_leaving_before_the_arrival_catches_nothing(rules
 
 
 @given(level=levels, seed=st.integers(0, 2**31), side=st.sampled_from(list(Side)))
-def test_a_lantern_sinks_smoothly_into_its_place_and_never_flies_at_the_face(
+def test_a_butterfly_sinks_smoothly_into_its_place_and_never_flies_at_the_face(
     level: float, seed: int, side: Side, workspace_of: type[Workspace]
 ) -> None:
     rules = CatchRules(workspace_of(side), np.random.default_rng(seed))
     views: list[ThingView] = []
     while not views or views[-1].state != "here":
         stepped(rules, level=level)
-        lantern = thing(rules, "lantern")
-        if lantern is not None:
-            views.append(lantern)
+        butterfly = thing(rules, "butterfly")
+        if butterfly is not None:
+            views.append(butterfly)
     ways = [np.subtract(b.position, a.position) for a, b in pairwise(views)]
     longest_m = max(float(np.linalg.norm(way)) for way in ways)
     assert longest_m < 2.0 * DT_S
@@ -146,15 +146,15 @@ def test_a_place_is_announced_later_at_a_higher_level(rules: CatchRules) -> None
     assert announced_s == pytest.approx(asked.flight_s - HARD_NOTICE_S, abs=0.05)
 
 
-def test_a_level_changes_no_lantern_that_flies(rules: CatchRules) -> None:
+def test_a_level_changes_no_butterfly_that_flies(rules: CatchRules) -> None:
     stepped(rules, level=0.0)
     stepped(rules, level=1.0)
-    flying = thing(rules, "lantern")
+    flying = thing(rules, "butterfly")
     assert flying is not None
     assert flying.radius_m == EASY_RADIUS_M
     rules.clear()
     stepped(rules, level=1.0)
-    other = thing(rules, "lantern")
+    other = thing(rules, "butterfly")
     assert other is not None
     assert other.radius_m == HARD_RADIUS_M
 
@@ -179,13 +179,13 @@ def test_ids_are_never_used_twice(rules: CatchRules) -> None:
     assert len(seen) > 10
 
 
-def test_a_cleared_round_shows_nothing_and_the_next_lantern_comes(rules: CatchRules) -> None:
+def test_a_cleared_round_shows_nothing_and_the_next_butterfly_comes(rules: CatchRules) -> None:
     stepped(rules)
     rules.clear()
     assert rules.scene().things == ()
     assert rules.scene().trial == 0
     stepped(rules)
-    assert thing(rules, "lantern") is not None
+    assert thing(rules, "butterfly") is not None
 
 
 def success(player: Player, level: float, workspace: Workspace) -> float:
@@ -204,6 +204,6 @@ def test_a_quick_hand_misses_most_at_the_highest_level(usual: Workspace) -> None
     assert success(Player(QUICK, 5), 1.0, usual) < 0.5
 
 
-def test_the_easiest_lantern_leaves_time() -> None:
+def test_the_easiest_butterfly_leaves_time() -> None:
     asked = demands(0.0)
     assert (asked.flight_s, asked.notice_s, asked.linger_s) == (EASY_FLIGHT_S, EASY_FLIGHT_S, EASY_LINGER_S)
