@@ -73,7 +73,9 @@ class Course:
         self.workspace = opening.workspace
         self.screens = ScreenWatch()
         self.playing: Playing | None = None
-        """The games, from the first tick on at which the arm is engaged."""
+        """The games; they are opened when the arm is first engaged."""
+        self.games_asked = False
+        """The games are being opened, or open: what they begin with is decided."""
         self._state = DriveState.OFF
         self._t_s = opening.t_started_s
 
@@ -88,17 +90,26 @@ class Course:
         return () if self.playing is None else self.playing.played
 
     def step(self, tick: LiveTick) -> GameView | None:
-        """Take a tick; the games' picture, None until the arm was first engaged."""
+        """Take a tick; the games' picture, None until they are open."""
         dt_s, self._t_s, self._state = max(0.0, tick.t_s - self._t_s), tick.t_s, tick.state
         self.shown.take(tick)
         if self.meter is not None:
             self.meter.take(tick)
         engaged = tick.state is DriveState.ENGAGED
-        if self.playing is None and engaged and not self.saving:
-            self.playing = _begun(self.opening, self.workspace, tick)
         if self.playing is not None and not self.saving:
             self.playing.step(tick, dt_s, active=engaged and not self.screens.is_lost)
         return self.picture
+
+    @property
+    def lacks_games(self) -> bool:
+        """The arm is engaged, and nobody has opened the games yet."""
+        return self._state is DriveState.ENGAGED and not self.games_asked and not self.saving
+
+    def open_games(self, tick: LiveTick) -> Playing:
+        """The games at their beginning. Takes a while, as each thinks out what it will ask: call it in a thread."""
+        opening = self.opening
+        record = GameRecord(as_games(opening.exercises), _workspace(opening, self.workspace, tick), opening.seed)
+        return Playing(record, GameLogWriter(opening.game_log, record))
 
     def see_screens(self, count: int) -> bool:
         """So many screens show the games now; True where the last of them has just gone, and the game pauses."""
@@ -167,11 +178,6 @@ def _listed(exercises: Sequence[Exercise]) -> tuple[ExerciseView, ...]:
     return tuple(
         ExerciseView(game=one.game, minutes=one.minutes, level=one.level or 0.0, pinned=one.pinned) for one in exercises
     )
-
-
-def _begun(opening: Opening, workspace: SessionWorkspace, tick: LiveTick) -> Playing:
-    record = GameRecord(as_games(opening.exercises), _workspace(opening, workspace, tick), opening.seed)
-    return Playing(record, GameLogWriter(opening.game_log, record))
 
 
 def _workspace(opening: Opening, workspace: SessionWorkspace, tick: LiveTick) -> Workspace:

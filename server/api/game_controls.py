@@ -94,7 +94,7 @@ class GameControls:
         course = self._opened(session_id)
         self._authority.require(client)
         measured = course.shown.read()
-        if course.playing is not None:
+        if course.games_asked:
             raise RefusedError("the games have begun", "a workspace measured before", "it stays as it is this time")
         if measured.shown is None or not measured.enough:
             missing = f"too little movement: {', '.join(measured.missing)}" if measured.missing else "too short a time"
@@ -131,4 +131,4 @@ def _check_possible(wish: Wish, view: GameView) -> None:
 
 def _public(course: Course) -> SessionWorkspacePublic:
     measured = course.shown.read()
-    return SessionWorkspacePublic(**measured.model_dump(), begun=course.playing is not None, workspace=course.workspace)
+    return SessionWorkspacePublic(**measured.model_dump(), begun=course.games_asked, workspace=course.workspace)

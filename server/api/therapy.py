@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import logging
 import secrets
 import time
 from contextlib import suppress
@@ -43,6 +44,8 @@ from server.messages import (
     SessionClosed,
 )
 
+log = logging.getLogger(__name__)
+
 CLOSED_WITHIN_S = 15.0
 """Ramp to rest, last flush of the recording; then we go on without waiting."""
 
@@ -77,6 +80,7 @@ class Therapy:
         self._database, self._link, self._journal = database, link, journal
         self._was_in_charge = ""
         self._course: Course | None = None
+        self._opening_games: asyncio.Task[None] | None = None
         self._turn = asyncio.Lock()
         self._closed = asyncio.Event()
         link.on_event.append(self._take_event)
@@ -95,6 +99,9 @@ class Therapy:
             before, after = course.picture, course.step(tick)
             if after is not None and counted(after) != counted(before):
                 self._journal.note_score(course.opening.id, after)
+            if course.lacks_games:
+                course.games_asked = True
+                self._opening_games = asyncio.create_task(self._open_games(course, tick), name="games")
         if self._config.demo:
             self._link.steer_demonstration(goal(course, tick))
         return None if course is None else course.picture
@@ -248,7 +255,18 @@ class Therapy:
         await run_in_threadpool(session_store.store_played, self._database, session_id, course.played)
         await run_in_threadpool(session_store.finish, self._database, session_id, status, ended_at, pain_after)
 
+    async def _open_games(self, course: Course, tick: LiveTick) -> None:
+        """What the games ask for is drawn in a thread: a heart that beats late would hold the arm (SR-9)."""
+        try:
+            course.playing = await run_in_threadpool(course.open_games, tick)
+        except Exception as error:  # whatever it is, the session must still be ended and measured
+            log.exception("the games of session %d could not be opened", course.opening.id)
+            self._journal.note(course.opening.id, "no games", str(error))
+
     async def _close_game_log(self, course: Course) -> None:
+        if self._opening_games is not None:
+            await self._opening_games
+            self._opening_games = None
         if course.playing is None:
             return
         await run_in_threadpool(course.playing.log.close)

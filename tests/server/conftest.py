@@ -13,7 +13,7 @@ from server.api.auth import COOKIE
 class Page:
     """A page of whoever `client` is logged in as: it looks, and answers every message as a browser's does."""
 
-    def __init__(self, client, name):
+    def __init__(self, client, name, screen):
         self.client, self.headers = client, {"Mirrorlimb-Client": name}
         self.messages = []
         self.closed_with = None
@@ -24,16 +24,16 @@ class Page:
             additional_headers={"Cookie": f"{COOKIE}={client.cookies[COOKIE]}"},
             origin=url,
         )
-        self._reader = threading.Thread(target=self._read)
+        self._reader = threading.Thread(target=self._read, args=(screen,))
         self._reader.start()
 
-    def _read(self):
+    def _read(self, screen):
         try:
             for text in self._socket:
                 message = json.loads(text)
                 self.messages.append(without_skeletons(message))
                 if self._answers:
-                    self._socket.send(json.dumps({"ack": message["tick"]["index"], "drawn_on": "dashboard"}))
+                    self._socket.send(json.dumps({"ack": message["tick"]["index"], "drawn_on": screen}))
         except ConnectionClosed as closed:
             self.closed_with = closed.rcvd and closed.rcvd.code
 
@@ -64,8 +64,8 @@ def look():
     """Opens pages, and closes them afterwards."""
     pages = []
 
-    def opened(client, name="dashboard"):
-        pages.append(Page(client, name))
+    def opened(client, name="dashboard", screen="dashboard"):
+        pages.append(Page(client, name, screen))
         return pages[-1]
 
     yield opened

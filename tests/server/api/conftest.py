@@ -4,6 +4,7 @@ import socket
 import threading
 from contextlib import contextmanager
 from dataclasses import dataclass
+from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 
 import httpx
@@ -13,10 +14,12 @@ import uvicorn
 import zstandard
 from websockets.sync.client import connect
 
+from fusion.skeleton import Side
 from server.api.app import create_app
 from server.api.auth import COOKIE, AuthSettings
 from server.api.serve import settle_memory
 from server.config import Config
+from server.messages import DriveState
 
 QUICK = AuthSettings(argon2_time_cost=1, argon2_memory_kib=64)
 STAND_IN = (str(Path(__file__).with_name("stand_in_station.py")),)
@@ -65,6 +68,15 @@ def running(data, settings=QUICK, station=STAND_IN, config=None, built=Path("now
         thread.join(20)
         listener.close()
         assert not thread.is_alive()
+
+
+@pytest.fixture(scope="session")
+def paper_tick():
+    """A tick of the stand-in station: nobody has begun, all is seen."""
+    spec = spec_from_file_location("stand_in_station", Path(STAND_IN[0]))
+    station = module_from_spec(spec)
+    spec.loader.exec_module(station)
+    return station.tick(0, 10.0, DriveState.READY, "1", Side.RIGHT)
 
 
 @pytest.fixture(scope="session")
