@@ -55,6 +55,7 @@ class Measure:
     """In words."""
     source: str
     trust: Trust
+    """With two depth cameras or more, where it comes from them."""
     trust_key: str
     """String key of the sentence that says why."""
     better: Better = Better.NEITHER
@@ -63,6 +64,8 @@ class Measure:
     """None = not published for this sensor: it comes from the patient's own sessions."""
     mcid: PublishedChange | None = None
     """The smallest change that mattered to patients; None = not published for this sensor."""
+    trust_of_one: Trust | None = None
+    """With one depth camera alone; None = the same."""
 
     @property
     def label_key(self) -> str:

@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 
 from fusion.messages import Flags, Floats
-from fusion.metrics.metric import PASSIVE_DRIVE, Metric
+from fusion.metrics.metric import ONE_SENSOR, PASSIVE_DRIVE, Metric
 from fusion.metrics.record import JOINTS, SessionRecord
 from fusion.metrics.uncertainty import batch_sem
 from fusion.skeleton import Side
@@ -26,7 +26,8 @@ RANGE: Final[RangeNames] = ("range_lowest", "range_highest", "range_of_movement"
 def range_metrics(record: SessionRecord) -> list[Metric]:
     """Lowest and highest angle and the range between them, per joint and arm, while the arm was driven."""
     affected_caveat = PASSIVE_DRIVE if record.is_driven else None
-    healthy = _arm(record.healthy_rad, record.engaged & record.healthy_valid, record.healthy_side, None)
+    healthy_caveat = ONE_SENSOR if record.sees_with_one else None
+    healthy = _arm(record.healthy_rad, record.engaged & record.healthy_valid, record.healthy_side, healthy_caveat)
     affected = _arm(record.affected_rad, record.engaged, record.healthy_side.other, affected_caveat)
     return healthy + affected
 

@@ -11,7 +11,7 @@ import numpy as np
 from scipy.signal import find_peaks
 
 from fusion.messages import Floats
-from fusion.metrics.metric import SENSOR_NOISE, UNRELIABLE, Metric
+from fusion.metrics.metric import ONE_SENSOR, SENSOR_NOISE, SLOW, UNRELIABLE, Metric
 from fusion.metrics.record import SessionRecord
 from fusion.metrics.smoothness import sparc
 from fusion.metrics.stretches import RATE_HZ, Stretch, low_passed, stretches
@@ -27,6 +27,8 @@ RESTING_M_S: Final = 0.05
 SHORTEST_S: Final = 0.3
 SHORTEST_M: Final = 0.08
 """A movement carries the hand at least this far from where it was: noise jitters, but goes nowhere."""
+SLOW_M_S: Final = 0.6
+"""Where the typical measured peak is lower, the sensors' noise makes several movements of one (docs/metrics.md)."""
 PEAK_RISE_M_S: Final = 0.02
 PEAKS_APART_S: Final = 0.15
 """What counts as a velocity peak within a movement, as the movement units of Alt Murphy et al., 2011."""
@@ -72,20 +74,28 @@ def reach_metrics(record: SessionRecord) -> list[Metric]:
         return []
     side = record.healthy_side
     peaks = np.array([float(one.velocity_peaks) for one in made])
+    common = _common_caveat(record, made)
 
     def median(name: str, unit: str, of: Callable[[Movement], float], caveat: str | None = None) -> Metric:
         values = np.array([of(one) for one in made])
-        return Metric(name, float(np.median(values)), unit, None, side, caveat, bootstrap_sem(values))
+        return Metric(name, float(np.median(values)), unit, None, side, caveat or common, bootstrap_sem(values))
 
     return [
-        Metric("movements", float(len(made)), "1", side=side),
+        Metric("movements", float(len(made)), "1", side=side, caveat_key=common),
         median("movement_time", "s", lambda one: one.duration_s),
         median("peak_speed", "m/s", lambda one: one.peak_speed_m_s, UNRELIABLE),
         median("mean_speed", "m/s", lambda one: one.mean_speed_m_s),
         median("path_ratio", "1", lambda one: one.path_ratio),
-        median("sparc", "1", lambda one: one.sparc, SENSOR_NOISE),
+        median("sparc", "1", lambda one: one.sparc, common or SENSOR_NOISE),
         Metric("velocity_peaks", float(peaks.mean()), "1", None, side, UNRELIABLE, mean_sem(peaks)),
     ]
+
+
+def _common_caveat(record: SessionRecord, made: list[Movement]) -> str | None:
+    """What must be said beside all of them: the worst first."""
+    if np.median([one.peak_speed_m_s for one in made]) < SLOW_M_S:
+        return SLOW
+    return ONE_SENSOR if record.sees_with_one else None
 
 
 def _bells(speed: Floats) -> list[tuple[int, int]]:

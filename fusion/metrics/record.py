@@ -16,6 +16,8 @@ JOINTS: Final = ("plane", "elevation", "rotation", "elbow")
 PASSIVE: Final = "passive"
 LONGEST_TICK_S: Final = 0.5
 """A longer hole between ticks is time about which nothing is known, and counts for no state."""
+SENDS_HZ: Final = 5.0
+"""A sensor that sent fewer frames on average took no part."""
 ENGAGED: Final = "engaged"
 """The state in which the exoskeleton follows the mirror."""
 
@@ -103,6 +105,11 @@ class SessionRecord:
         """(T,) how long each tick's state lasted; of the last one, and of one before a hole, nothing is known."""
         spans = np.diff(self.t_s, append=self.t_s[-1:])
         return np.where(spans <= LONGEST_TICK_S, spans, 0.0)
+
+    @property
+    def sees_with_one(self) -> bool:
+        """Whether one sensor alone sent anything to speak of."""
+        return sum(bool(np.nan_to_num(one.frames_per_s).mean() >= SENDS_HZ) for one in self.sensors) == 1
 
     @property
     def is_driven(self) -> bool:

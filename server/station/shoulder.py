@@ -6,17 +6,12 @@ from dataclasses import dataclass, replace
 from math import exp, isfinite, nan
 from typing import Final
 
-import numpy as np
-
-from fusion.kinematics.body_frame import PELVIS
-from fusion.messages import Floats, PipelineFrame
-from fusion.skeleton import Side, arm
+from fusion.kinematics.shoulder import shoulder_height_m
+from fusion.messages import PipelineFrame
+from fusion.skeleton import Side
 
 SMOOTHED_S: Final = 0.3
 """Time constant: a hitch lasts as long as a reach, the sensors' noise mostly shorter."""
-NATURAL_RISE_M: Final = 0.03
-"""A shoulder rises by this × (1 − cos elevation) with the arm, unhitched: the fit over seven true motions
-(docs/metrics.md)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,7 +19,7 @@ class ShoulderRise:
     """The healthy shoulder's height, smoothed; NaN until it is known."""
 
     height_m: float = nan
-    """Above the pelvis along the spine, without what the arm's elevation brings with it."""
+    """See `shoulder_height_m`."""
     at_enable_m: float = nan
 
     def heard(self, frame: PipelineFrame, side: Side, dt_s: float) -> ShoulderRise:
@@ -52,15 +47,7 @@ class ShoulderRise:
 
 
 def _height_m(frame: PipelineFrame, side: Side) -> float:
-    """Of the shoulder above the pelvis along the spine, so that leaning is no hitch; NaN where it is not known."""
+    """NaN where the arm is not seen."""
     if frame.fused is None or frame.trunk is None or frame.healthy is None or not frame.healthy.valid:
         return nan
-    up = frame.trunk.rotation_trunk_to_room[:, 1]
-    shoulder, elbow = frame.fused.positions_in_room[list(arm(side)[:2])]
-    height_m = float((shoulder - frame.fused.positions_in_room[PELVIS]) @ up)
-    return height_m - NATURAL_RISE_M * (1.0 - _hanging(elbow - shoulder, up))
-
-
-def _hanging(upper_arm: Floats, up: Floats) -> float:
-    """Cosine of the elevation: 1 = the arm hangs along the spine."""
-    return float(-upper_arm @ up / max(float(np.linalg.norm(upper_arm)), 1e-6))
+    return shoulder_height_m(frame.fused.positions_in_room, frame.trunk, side)

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from scipy.signal import butter, sosfiltfilt
 
 from fusion.messages import Floats
-from fusion.metrics.metric import PASSIVE_DRIVE, Metric
+from fusion.metrics.metric import ONE_SENSOR, PASSIVE_DRIVE, SLOW, UNRELIABLE, Metric
 from fusion.metrics.range_of_movement import angle_range
 from fusion.metrics.record import SensorTrack, SessionRecord
 from fusion.metrics.session import session_metrics
@@ -49,7 +49,7 @@ def record(seconds: float = 40.0, lag_s: float = 0.15) -> SessionRecord:
     hand = reaching(seconds)
     t_s = np.arange(len(hand)) / RATE
     state = np.where(t_s < 2.0, "ready", "engaged")
-    track = SensorTrack("kinect-1", np.full(len(t_s), 30.0), np.full(len(t_s), 0.02), np.linspace(0, 0.04, len(t_s)))
+    seen = (np.full(len(t_s), 30.0), np.full(len(t_s), 0.02), np.linspace(0, 0.04, len(t_s)))
     return SessionRecord(
         t_s=t_s,
         state=state,
@@ -59,7 +59,7 @@ def record(seconds: float = 40.0, lag_s: float = 0.15) -> SessionRecord:
         affected_rad=angles(t_s - lag_s),
         hand_in_trunk=hand,
         trunk_displacement_m=np.linspace(0, 0.1, len(t_s)),
-        sensors=(track,),
+        sensors=(SensorTrack("kinect-1", *seen), SensorTrack("kinect-2", *seen)),
         hits=9,
         misses=3,
         shoulder_hitch_m=np.linspace(0, 0.05, len(t_s)),
@@ -136,6 +136,24 @@ def test_a_figure_of_many_movements_says_how_sure_it_is(usual: tuple[Metric, ...
     assert varied > 2 * calm
     assert named(usual, "movements").sem is None
     assert named(usual, "range_of_movement", "elbow", Side.LEFT).sem is not None
+
+
+def test_slow_movements_say_that_the_sensors_noise_is_as_fast() -> None:
+    quick = record()
+    quick = replace(quick, hand_in_trunk=1.5 * quick.hand_in_trunk)
+    slow = replace(quick, hand_in_trunk=0.5 * quick.hand_in_trunk)
+    assert named(session_metrics(quick), "movement_time").caveat_key is None
+    assert named(session_metrics(slow), "movement_time").caveat_key == SLOW
+
+
+def test_what_one_sensor_saw_alone_says_so() -> None:
+    both = record()
+    quick = replace(both, hand_in_trunk=1.5 * both.hand_in_trunk)
+    lost = replace(quick.sensors[1], frames_per_s=np.full(len(quick.t_s), np.nan))
+    figures = session_metrics(replace(quick, sensors=(quick.sensors[0], lost)))
+    assert named(figures, "mean_speed").caveat_key == ONE_SENSOR
+    assert named(figures, "range_of_movement", "elbow", Side.LEFT).caveat_key == ONE_SENSOR
+    assert named(figures, "peak_speed").caveat_key == UNRELIABLE
 
 
 def test_noise_neither_makes_nor_hides_a_movement() -> None:

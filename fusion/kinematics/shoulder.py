@@ -1,0 +1,30 @@
+"""How high a shoulder stands above the pelvis, without what raising the arm brings with it."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from fusion.kinematics.body_frame import PELVIS
+from fusion.messages import Floats, TrunkFrame
+from fusion.skeleton import Side, arm
+
+NATURAL_RISE_M: Final = 0.03
+"""A shoulder that nobody hitches rises with its arm by this × (1 − cos elevation): the least-squares fit over the true
+motions of seven recordings (docs/metrics.md)."""
+
+
+def shoulder_height_m(positions_in_room: Floats, trunk: TrunkFrame, side: Side) -> float:
+    """Along the spine, so that leaning changes nothing; only its changes mean something. NaN where a joint is missing.
+
+    Args:
+        positions_in_room: (25, 3) m.
+        trunk: of the same body.
+        side: of the shoulder.
+    """
+    up = trunk.rotation_trunk_to_room[:, 1]
+    shoulder, elbow = positions_in_room[list(arm(side)[:2])]
+    upper_arm = elbow - shoulder
+    hanging = float(-upper_arm @ up / max(float(np.linalg.norm(upper_arm)), 1e-6))  # cosine of the elevation
+    return float((shoulder - positions_in_room[PELVIS]) @ up) - NATURAL_RISE_M * (1.0 - hanging)
