@@ -61,6 +61,13 @@ class Polyline:
         k = int(np.argmin(away_m))
         return float(begins_m[k] + on_m[k]), float(away_m[k])
 
+    def stays_until(self, place: Point, from_m: float, within_m: float) -> float:
+        """How far along the line [m] every point of it, from `from_m` on, is within a distance of the place."""
+        first = int(np.searchsorted(self.reached_m, from_m, "right"))
+        beyond = np.linalg.norm(self.points[first:] - np.asarray(place), axis=1) > within_m
+        last = first + (int(np.argmax(beyond)) if beyond.any() else len(beyond)) - 1
+        return max(float(self.reached_m[last]), from_m)
+
     def _pieces(self, from_m: float, to_m: float) -> tuple[int, int]:
         """The first of the straight pieces between two lengths, and the one after the last."""
         first = min(max(int(np.searchsorted(self.reached_m, from_m, "right")) - 1, 0), len(self.points) - 2)

@@ -1,8 +1,9 @@
 """Tracing: take up a light and carry it along a path through space to its end.
 
 A trial is one path. It begins when a path lies there and ends when the light is at the end, or when its time is over.
-The light goes with the hand while the hand is inside the tube about the path, and only forwards; where the hand leaves
-the tube the light waits. So the whole path is followed inside the tube, or it is not finished; nothing is taken back.
+The light goes with the hand while the hand is inside the tube about the path, and only forwards: to the point nearest
+to the hand, as far as all of the path up to there is within the tube's radius of it. Where the hand leaves the tube the
+light waits. So the whole path is followed inside the tube, or it is not finished; nothing is taken back.
 
 Things: `light` at the light's place, its radius the tube's, its progress the share of the path that is done, its state
 "waiting" (not taken up yet), "led" (the hand has it) or "left" (it waits for the hand); `end` at the path's end, its
@@ -38,8 +39,6 @@ BREATH_S: Final = 0.8
 SUBSTEP_M: Final = 0.01
 """A hand's way from one step to the next is gone in such pieces, so that few pictures count as many."""
 MOST_SUBSTEPS: Final = 200
-AHEAD_M: Final = 0.03
-"""The light follows a hand so far ahead of it within one piece; more would let it leap from one bend to another."""
 NEARLY_M: Final = 0.01
 """So near its end a path is done: nobody has to overshoot it."""
 LEAD_M: Final = 0.08
@@ -82,7 +81,7 @@ class Tracing:
     off_m_s: float = 0.0
     """The hand's distance from the path, summed over `led_s`."""
     away_m: float = 0.0
-    """Of the hand from the path about the light."""
+    """Of the hand from the path where the light is."""
 
     @property
     def inside(self) -> bool:
@@ -160,8 +159,8 @@ def _followed(trial: Tracing, hand: Point, dt_s: float) -> Tracing:
 
 def _moved(trial: Tracing, dt_s: float) -> Tracing:
     """One piece later: the light goes on with a hand inside the tube."""
-    ahead_m = min(trial.done_m + AHEAD_M, trial.line.length_m)
-    along_m, away_m = trial.line.nearest(trial.hand, trial.done_m, ahead_m)
+    until_m = trial.line.stays_until(trial.hand, trial.done_m, trial.demands.radius_m)
+    along_m, away_m = trial.line.nearest(trial.hand, trial.done_m, until_m)
     trial = replace(trial, away_m=away_m, taken_up=trial.taken_up or away_m <= trial.demands.radius_m)
     if not trial.taken_up:
         return replace(trial, waited_s=trial.waited_s + dt_s)
