@@ -88,6 +88,8 @@ export const putPlan = (id: number, form: PlanForm) =>
 /** What was done of what was planned in the last `weeks` calendar weeks. */
 export const readAdherence = (id: number, weeks: number) =>
   taken(http.GET("/api/patients/{patient_id}/adherence", { params: { path: { patient_id: id }, query: { weeks } } }));
+/** How every figure went over the patient's sessions. */
+export const readProgress = (id: number) => taken(http.GET("/api/patients/{patient_id}/progress", patient(id)));
 export const listScores = (id: number) => taken(http.GET("/api/patients/{patient_id}/scores", patient(id)));
 export const addScore = (id: number, form: ScoreForm) =>
   taken(http.POST("/api/patients/{patient_id}/scores", { ...patient(id), body: form }));

@@ -10,6 +10,7 @@ import { live } from "./en/live";
 import { patient } from "./en/patient";
 import { plan } from "./en/plan";
 import { play } from "./en/play";
+import { progress } from "./en/progress";
 import { replay } from "./en/replay";
 import { scores } from "./en/scores";
 import { session } from "./en/session";
@@ -33,4 +34,5 @@ export const en = {
   ...scores,
   ...replay,
   ...plan,
+  ...progress,
 } as const;

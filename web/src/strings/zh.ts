@@ -12,6 +12,7 @@ import { live } from "./zh/live";
 import { patient } from "./zh/patient";
 import { plan } from "./zh/plan";
 import { play } from "./zh/play";
+import { progress } from "./zh/progress";
 import { replay } from "./zh/replay";
 import { scores } from "./zh/scores";
 import { session } from "./zh/session";
@@ -35,4 +36,5 @@ export const zh: Record<Key, string> = {
   ...scores,
   ...replay,
   ...plan,
+  ...progress,
 };

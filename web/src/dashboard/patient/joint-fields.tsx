@@ -43,7 +43,7 @@ function JointField({ joint, side, draft, onChange }: Props) {
   });
   return (
     <fieldset class="range" aria-label={t(`joint.${joint}`)}>
-      <RangePicture joint={joint} side={side} minDeg={min} maxDeg={max} />
+      <RangePicture joint={joint} side={side} sectors={[{ minDeg: min, maxDeg: max, look: "limit" }]} />
       <div class="field">
         <h3>{t(`joint.${joint}`)}</h3>
         <span class="hint">{t(`range.${joint}.hint`)}</span>

@@ -1,4 +1,4 @@
-// A small picture of one joint's range, for the affected arm: what zero is, which way is plus, how far it may go.
+// A small picture of one joint's range, for one arm: what zero is, which way is plus, how far it may go or went.
 import type { Joint, Side } from "../../api/types";
 import { t } from "../../strings";
 
@@ -33,21 +33,34 @@ const LOOKS: Record<Joint, Look> = {
   },
 };
 
+/** One range in the picture; sessions are told apart by how far out and in which line they are drawn. */
+export interface Sector {
+  minDeg: number;
+  maxDeg: number;
+  look: "limit" | "first" | "last" | "best";
+}
+
+const RADII: Record<Sector["look"], number> = { limit: RADIUS, first: 26, last: 36, best: 46 };
+
 interface Props {
   joint: Joint;
   side: Side;
-  minDeg: number;
-  maxDeg: number;
+  sectors: readonly Sector[];
 }
 
-export function RangePicture({ joint, side, minDeg, maxDeg }: Props) {
+export function RangePicture({ joint, side, sectors }: Props) {
   const look = LOOKS[joint];
   const [x, y] = look.pivot;
-  const zero = pointAt(look, 0);
+  const zero = pointAt(look, 0, RADIUS);
   return (
-    <svg viewBox="0 0 132 110" role="img" aria-label={t(`range.${joint}.picture`)}>
+    <svg class="range-picture" viewBox="0 0 132 110" role="img" aria-label={t(`range.${joint}.picture`)}>
       <g transform={side === "left" ? "translate(132 0) scale(-1 1)" : undefined}>
-        {minDeg < maxDeg && <path class="body-sector" d={sector(look, minDeg, maxDeg)} />}
+        {sectors.map(
+          (sector) =>
+            sector.minDeg < sector.maxDeg && (
+              <path key={sector.look} class={`sector-${sector.look}`} d={pathOf(look, sector)} />
+            ),
+        )}
         <path class="body-line" d={look.body} />
         <line class="body-zero" x1={x} y1={y} x2={zero[0]} y2={zero[1]} />
         <circle cx={x} cy={y} r="5" fill="var(--accent)" />
@@ -56,17 +69,18 @@ export function RangePicture({ joint, side, minDeg, maxDeg }: Props) {
   );
 }
 
-function pointAt(look: Look, angleDeg: number): readonly [number, number] {
+function pointAt(look: Look, angleDeg: number, radius: number): readonly [number, number] {
   const turn = ((look.zero + look.sense * angleDeg) * Math.PI) / 180;
-  return [look.pivot[0] + RADIUS * Math.cos(turn), look.pivot[1] + RADIUS * Math.sin(turn)];
+  return [look.pivot[0] + radius * Math.cos(turn), look.pivot[1] + radius * Math.sin(turn)];
 }
 
-/** The path of the sector between two angles; `minDeg < maxDeg`. */
-function sector(look: Look, minDeg: number, maxDeg: number): string {
+/** The path of the sector between its two angles; `minDeg < maxDeg`. */
+function pathOf(look: Look, { minDeg, maxDeg, look: which }: Sector): string {
+  const radius = RADII[which];
   const [x, y] = look.pivot;
-  const from = pointAt(look, minDeg).join(" ");
-  const to = pointAt(look, maxDeg).join(" ");
+  const from = pointAt(look, minDeg, radius).join(" ");
+  const to = pointAt(look, maxDeg, radius).join(" ");
   const large = maxDeg - minDeg > 180 ? 1 : 0;
   const sweep = look.sense > 0 ? 1 : 0;
-  return `M${x} ${y} L${from} A${RADIUS} ${RADIUS} 0 ${large} ${sweep} ${to} Z`;
+  return `M${x} ${y} L${from} A${radius} ${radius} 0 ${large} ${sweep} ${to} Z`;
 }

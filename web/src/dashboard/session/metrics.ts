@@ -64,33 +64,39 @@ export function translatedOr(key: string, otherwise: string): string {
   return isKey(key) ? t(key) : otherwise;
 }
 
-type Unit = readonly [(value: number) => string, string];
+/** How an SI value is shown. */
+interface Unit {
+  times: number;
+  digits: (shown: number) => number;
+  sign: string;
+}
 
-const IN_PERCENT = new Set(["success_rate", "own_work_share", "help", "help_allowed"]);
-const PERCENT: Unit = [(value) => figure(value * 100), " %"];
+const IN_PERCENT = new Set(["success_rate", "own_work_share", "help", "help_allowed", "game_success", "game_level"]);
+const PERCENT: Unit = { times: 100, digits: () => 0, sign: " %" };
 
 const UNITS: Record<string, Unit> = {
-  rad: [(value) => figure(degrees(value)), "°"],
-  m: [(value) => figure(value * 100, 1), " cm"],
-  "m/s": [(value) => figure(value, 2), " m/s"],
-  s: [(value) => figure(value, value < 10 ? 2 : 0), " s"],
-  "N m": [(value) => figure(value, 1), " Nm"],
-  J: [(value) => figure(value, value < 10 ? 1 : 0), " J"],
-  min: [(value) => figure(value, 1), " min"],
-  Hz: [(value) => figure(value, 1), " /s"],
-  "1": [(value) => figure(value, Number.isInteger(value) ? 0 : 2), ""],
+  rad: { times: degrees(1), digits: () => 0, sign: "°" },
+  m: { times: 100, digits: () => 1, sign: " cm" },
+  "m/s": { times: 1, digits: () => 2, sign: " m/s" },
+  s: { times: 1, digits: (shown) => (Math.abs(shown) < 10 ? 2 : 0), sign: " s" },
+  "N m": { times: 1, digits: () => 1, sign: " Nm" },
+  J: { times: 1, digits: (shown) => (Math.abs(shown) < 10 ? 1 : 0), sign: " J" },
+  min: { times: 1, digits: () => 1, sign: " min" },
+  Hz: { times: 1, digits: () => 1, sign: " /s" },
+  "1": { times: 1, digits: (shown) => (Number.isInteger(shown) ? 0 : 2), sign: "" },
 };
 
 /** A figure in the unit people read it in. */
-export function amountOf(metric: Metric): string {
+export function amountOf(metric: Pick<Metric, "name" | "unit" | "value">): string {
   if (metric.value === null) return t("figure.unknown");
-  const [said, unit] = unitOf(metric);
-  return `${said(metric.value)}${unit}`;
+  const unit = unitOf(metric);
+  const shown = metric.value * unit.times;
+  return `${figure(shown, unit.digits(shown))}${unit.sign}`;
 }
 
-function unitOf(metric: Metric): Unit {
-  if (IN_PERCENT.has(metric.name)) return PERCENT;
-  return UNITS[metric.unit] ?? [(value) => figure(value, 2), ` ${metric.unit}`];
+export function unitOf({ name, unit }: Pick<Metric, "name" | "unit">): Unit {
+  if (IN_PERCENT.has(name)) return PERCENT;
+  return UNITS[unit] ?? { times: 1, digits: () => 2, sign: ` ${unit}` };
 }
 
 /** What tells one figure from another across sessions. */
