@@ -156,7 +156,9 @@ def _bodies(path: Path) -> Iterator[bytes]:
                 yield body
     except OSError as error:
         raise RecordingError(
-            f"{path}: the games cannot be read ({error.strerror})", "a session's .game file", "look at its permissions"
+            f"{path}: the games cannot be read ({error.strerror})",
+            "a session's .game file",
+            "name one that is there, and look at its permissions",
         ) from None
 
 

@@ -23,6 +23,7 @@ COMMANDS = (
     "exoskeleton",
     "emulate",
     "replay",
+    "score",
     "fuse",
     "evaluate",
     "locate",

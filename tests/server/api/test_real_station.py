@@ -68,7 +68,7 @@ def test_a_newcomer_plays_and_the_figures_stay(page):
     play(page)
     assert press(page, "stop").json()["state"] == "stopped"
     played = [message for message in page.messages if message["game"]]
-    assert {message["game"]["phase"] for message in played} == {"playing"}
+    assert {"waiting"} <= {message["game"]["phase"] for message in played} <= {"waiting", "playing"}
     assert len({message["tick"]["affected"]["elbow_rad"] for message in played}) > 10
     assert {view["sensor"] for message in played for view in message["tick"]["sensors"]} >= {"127.0.1.1", "127.0.1.2"}
     ended = page.post(f"{page.path}/end", pain_after=0).json()
@@ -101,3 +101,25 @@ def test_a_sender_alone_moves_nothing(demonstration, newcomer, look):
     seen = len(looking.messages)
     until(looking, lambda tick: len(looking.messages) > seen + 50)
     assert {message["tick"]["state"] for message in looking.messages} == {"off"}
+
+
+def test_a_session_without_sensors_cannot_begin_says_why_and_ends_with_nothing_lost(
+    serving, tmp_path, enrol, logged_in, look
+):
+    silent = Config(station=StationConfig(sensors=SensorsConfig(ports=FREE_PORTS)))
+    with serving(tmp_path, station=STATION, config=silent) as service, logged_in(service) as therapist:
+        page = look(therapist)
+        form = {"patient_id": enrol(therapist)["id"], "confirmed_affected_side": "left", "pain_before": 3}
+        session = page.post("/api/sessions", **form).raise_for_status().json()
+        page.path = f"/api/sessions/{session['id']}"
+        blockers = until(page, lambda tick: tick["blockers"])["blockers"]
+        assert any("sensor" in blocker for blocker in blockers), blockers
+        refused = press(page, "start")
+        assert refused.status_code == 409
+        assert "sensor" in refused.json()["detail"]["what"]
+        assert page.post(f"{page.path}/game", wish="start").status_code == 409
+        shown = therapist.get(f"{page.path}/workspace").json()
+        assert (shown["seen_s"], shown["enough"]) == (0.0, False)
+        ended = page.post(f"{page.path}/end", pain_after=3).raise_for_status().json()
+        page.close()
+    assert (ended["status"], ended["played"], ended["pain_before"], ended["measured"]) == ("ended", [], 3, True)

@@ -56,6 +56,8 @@ def break_a_line(folder):
         ("convert", "exercise", "notes.txt"),
         ("replay", "exercise", "--to", "127.0.0.1:99999"),
         ("replay", "exercise", "--to", "nobody.invalid"),
+        ("score", "notes.txt"),
+        ("score", "nowhere.mcap"),
         ("serve", "--config", "none.toml"),
         ("serve", "--config", "wrong-key.toml"),
         ("serve", "--config", "wrong-value.toml"),
