@@ -18,8 +18,8 @@ from fusion.metrics.uncertainty import mean_sem
 LARGEST_LEAD_S, LARGEST_LAG_S = 0.2, 1.0
 SHORTEST_S: Final = 5.0
 """Engaged and seen for less in all, nothing is said."""
-LEAST_SPREAD_RAD: Final = radians(2.0)
-"""A joint that hardly moved has no lag."""
+LEAST_SPREAD_RAD: Final = radians(5.0)
+"""Of a joint that hardly moved, lag and symmetry would be those of the sensors' noise, which is 2 to 4°."""
 BATCH_S: Final = 10.0
 """What varies from one such span to the next tells how sure lag and symmetry are."""
 

@@ -22,6 +22,7 @@ POSTURE = (
         Trust.FAIR,
         "trust.trunk",
         Better.LESS,
+        trust_of_one=Trust.FAIR,
     ),
     Measure(
         "trunk_displacement_p95",
@@ -31,31 +32,38 @@ POSTURE = (
         Trust.FAIR,
         "trust.trunk",
         Better.LESS,
+        trust_of_one=Trust.FAIR,
     ),
     Measure(
         "shoulder_hitch",
         "m",
         f"median {HITCH}",
         f"compensation: {LEVIN}; the formula is ours",
-        Trust.POOR,
+        Trust.FAIR,
         "trust.hitch",
         Better.LESS,
         "first-order low-pass, 0.3 s",
+        trust_of_one=Trust.FAIR,
     ),
     Measure(
         "shoulder_hitch_p95",
         "m",
         f"95th percentile {HITCH}",
         f"compensation: {LEVIN}; the formula is ours",
-        Trust.POOR,
+        Trust.FAIR,
         "trust.hitch",
         Better.LESS,
         "first-order low-pass, 0.3 s",
+        trust_of_one=Trust.FAIR,
     ),
 )
 RANGES = (
-    Measure("range_lowest", "rad", f"2nd percentile {RANGE}", OURS, Trust.FAIR, "trust.angles"),
-    Measure("range_highest", "rad", f"98th percentile {RANGE}", OURS, Trust.FAIR, "trust.angles"),
+    Measure(
+        "range_lowest", "rad", f"2nd percentile {RANGE}", OURS, Trust.FAIR, "trust.angles", trust_of_one=Trust.FAIR
+    ),
+    Measure(
+        "range_highest", "rad", f"98th percentile {RANGE}", OURS, Trust.FAIR, "trust.angles", trust_of_one=Trust.POOR
+    ),
     Measure(
         "range_of_movement",
         "rad",
@@ -64,6 +72,7 @@ RANGES = (
         Trust.FAIR,
         "trust.angles",
         Better.MORE,
+        trust_of_one=Trust.POOR,
     ),
 )
 BOTH_ARMS = (
@@ -73,10 +82,11 @@ BOTH_ARMS = (
         "concordance 2 cov / (var + var + (difference of means)²) of healthy and affected angle at the best lag, per "
         "joint; 1 = the same movement. In mode passive it measures the drive",
         "Lin, Biometrics 45:255–268, 1989",
-        Trust.FAIR,
+        Trust.GOOD,
         "trust.symmetry",
         Better.MORE,
         STRETCHES,
+        trust_of_one=Trust.POOR,
     ),
     Measure(
         "lag",
@@ -86,6 +96,7 @@ BOTH_ARMS = (
         Trust.FAIR,
         "trust.symmetry",
         filter=STRETCHES,
+        trust_of_one=Trust.POOR,
     ),
 )
 MEASURES = (*POSTURE, *RANGES, *BOTH_ARMS)

@@ -14,6 +14,7 @@ MEASURES = (
         Trust.GOOD,
         "trust.movements",
         filter=HAND_FILTER,
+        trust_of_one=Trust.FAIR,
     ),
     Measure(
         "movement_time",
@@ -23,6 +24,7 @@ MEASURES = (
         Trust.GOOD,
         "trust.movement_time",
         filter=HAND_FILTER,
+        trust_of_one=Trust.POOR,
     ),
     Measure(
         "peak_speed",
@@ -32,6 +34,7 @@ MEASURES = (
         Trust.POOR,
         "trust.peak_speed",
         filter=HAND_FILTER,
+        trust_of_one=Trust.POOR,
     ),
     Measure(
         "mean_speed",
@@ -41,6 +44,7 @@ MEASURES = (
         Trust.GOOD,
         "trust.mean_speed",
         filter=HAND_FILTER,
+        trust_of_one=Trust.FAIR,
     ),
     Measure(
         "path_ratio",
@@ -50,6 +54,7 @@ MEASURES = (
         Trust.FAIR,
         "trust.path_ratio",
         filter=HAND_FILTER,
+        trust_of_one=Trust.FAIR,
     ),
     Measure(
         "sparc",
@@ -60,6 +65,7 @@ MEASURES = (
         Trust.FAIR,
         "trust.sparc",
         filter=HAND_FILTER,
+        trust_of_one=Trust.FAIR,
     ),
     Measure(
         "velocity_peaks",
@@ -70,5 +76,6 @@ MEASURES = (
         Trust.POOR,
         "trust.velocity_peaks",
         filter=HAND_FILTER,
+        trust_of_one=Trust.POOR,
     ),
 )

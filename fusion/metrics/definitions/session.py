@@ -29,6 +29,7 @@ MEASURES = (
         "trust.movements",
         Better.MORE,
         HAND_FILTER,
+        trust_of_one=Trust.POOR,
     ),
     Measure("sensor_frame_rate", "Hz", "median of a sensor's frames per second", OURS, Trust.GOOD, "trust.exact"),
     Measure(

@@ -6,8 +6,9 @@ import pytest
 
 from fusion.align.opposed import Opposition
 from fusion.estimation import METHODS
-from fusion.experiments.catalogue import covered_90deg, numerics, truth, yao_swaps, yao_untracked
+from fusion.experiments.catalogue import covered_90deg, measures_trust, numerics, truth, yao_swaps, yao_untracked
 from fusion.experiments.experiment import Setup
+from fusion.experiments.measures.agreement import agreements
 from fusion.experiments.measures.oracle import without_wrong_joints
 from fusion.experiments.measures.turning import turned
 from fusion.experiments.shelf import Shelf
@@ -88,3 +89,11 @@ def test_sets_stay_sets_whatever_is_fed():
     assert [beside.met for beside in outcome.beside] == [True] * len(numerics.METHODS_WITH_SETS)
     (table,) = outcome.tables
     assert all(row[1] == 1000 and row[2] == 100 for row in table.rows)
+
+
+def test_figures_of_the_truth_itself_are_trusted_without_limit(recording):
+    for measured, true in measures_trust.sessions_of(recording, together=True):
+        assert {metric.name for metric in true} <= set(measures_trust.COMPARED)
+        exact = agreements([(true, true)] * 5)
+        assert all(one.off == 0.0 for one in exact)
+        assert {metric.name for metric in measured} & {"movement_time", "range_of_movement"}
