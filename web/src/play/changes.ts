@@ -1,63 +1,12 @@
 // What has happened between two pictures of the game. The stream skips pictures on slow screens, so this is read
 // from the counters, which lose nothing, and not from a picture's own feedback list.
-import type { LiveMessage } from "../api/types";
+import type { GameView as Sent } from "../api/types";
 
-type Point = readonly [number, number, number];
-
+export type GameView = Sent;
 /** One thing to draw; `kind` and `state` are the game's own words. */
-export interface ThingView {
-  readonly id: number;
-  readonly kind: string;
-  readonly position: Point;
-  readonly radius_m: number;
-  readonly progress: number;
-  readonly state: string;
-  readonly turn_rad: number;
-}
-
+export type ThingView = GameView["things"][number];
 /** A spot in space that is chosen by staying there with the hand. */
-export interface ChoiceView {
-  readonly id: string;
-  readonly position: Point;
-  readonly radius_m: number;
-  readonly progress: number;
-}
-
-export interface GameView {
-  readonly game: string;
-  readonly phase: string;
-  readonly score: number;
-  readonly streak: number;
-  readonly round: number;
-  readonly rounds: number;
-  readonly things: readonly ThingView[];
-  readonly way: readonly Point[];
-  readonly hand: Point;
-  readonly aim: Point | null;
-  readonly time_left_s: number;
-  readonly hits: number;
-  readonly misses: number;
-  readonly level: number;
-  readonly pinned: boolean;
-  readonly feedback: readonly string[];
-  readonly choices: readonly ChoiceView[];
-  readonly posture: string;
-  readonly rest_suggested: boolean;
-  readonly exercise: number;
-  readonly exercises: number;
-  readonly next_game: string;
-  readonly total_score: number;
-}
-
-/** The game's picture in a message, also as a service sends it that does not know the newer fields yet. */
-export function viewOf(message: LiveMessage): GameView | null {
-  const game = message.game as (Partial<GameView> & { targets?: readonly Partial<ThingView>[] }) | null;
-  if (!game || game.things) return game as GameView | null;
-  const things = (game.targets ?? []).map((one) => ({ kind: "", state: "", turn_rad: 0, ...one }) as ThingView);
-  const aim = things[0]?.position ?? null;
-  const plain = { way: [], choices: [], posture: "", exercise: 1, exercises: 1, next_game: "", total_score: 0 };
-  return { ...plain, pinned: false, rest_suggested: false, ...game, things, aim } as unknown as GameView;
-}
+export type ChoiceView = GameView["choices"][number];
 
 export interface Changes {
   /** Another game than the picture before, or the first picture there is. */

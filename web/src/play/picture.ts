@@ -1,12 +1,15 @@
 // Everything on the patient's screen together: takes messages as they come, draws a frame when asked.
 import { Vector3 } from "three";
 import type { LiveMessage } from "../api/types";
-import { type Changes, changesBetween, type GameView, NOTHING, viewOf } from "./changes";
+import { type Changes, changesBetween, type GameView, NOTHING } from "./changes";
+import { Choices } from "./choices";
 import { Effects } from "./effects";
 import { Guide } from "./guide";
-import { HelpNote } from "./help-note";
 import { Hud } from "./hud";
 import { type Hands, Limbs } from "./limbs";
+import { NoteBoard } from "./note";
+import { Notes } from "./note-for";
+import { Turn, waitForTurn } from "./one-sound";
 import { Overlay } from "./overlay";
 import { effortsOf, Pace } from "./pace";
 import { reasonFor } from "./reason";
@@ -16,10 +19,13 @@ import { sceneOf } from "./scenes";
 import { type Access, type Face, faceFor } from "./screen";
 import type { Cue, Sound } from "./sound";
 import { Stage } from "./stage";
+import { type Visit, visitAfter } from "./visit";
 
 const LONGEST_STEP_S = 0.1;
 /** Its scenery is what is seen while nothing is played. */
 const FIRST_GAME = "reach";
+/** Faces on which the hand can choose; on all others the arm is held or nobody listens. */
+const CHOOSING: ReadonlySet<Face> = new Set(["waiting", "playing", "rest", "break", "between"]);
 
 export class Picture {
   private readonly stage: Stage;
@@ -30,7 +36,12 @@ export class Picture {
   private readonly effects = new Effects(() => this.stillness.matches);
   private readonly hud: Hud;
   private readonly overlay: Overlay;
-  private readonly helpNote: HelpNote;
+  private readonly choices: Choices;
+  private readonly notes = new Notes();
+  private readonly noteBoard: NoteBoard;
+  private readonly turn = new Turn();
+  private otherWindowSounds = true;
+  private visit: Visit | null = null;
   private readonly pace: Pace;
   private newest: LiveMessage | null = null;
   private arrived_s = 0;
@@ -58,8 +69,12 @@ export class Picture {
     this.scenes.want(FIRST_GAME, this.limbs.side);
     this.hud = new Hud(hud);
     this.overlay = new Overlay(overlay);
-    this.helpNote = new HelpNote(page);
-    const parts = [this.guide.group, this.scenes.group, this.limbs.group, this.effects.group];
+    this.choices = new Choices(hud, (point) => this.stage.onPage(point));
+    this.noteBoard = new NoteBoard(page);
+    waitForTurn(() => {
+      this.otherWindowSounds = false;
+    });
+    const parts = [this.choices.group, this.guide.group, this.scenes.group, this.limbs.group, this.effects.group];
     this.stage.scene.add(...parts);
   }
 
@@ -71,12 +86,18 @@ export class Picture {
     this.newest = message;
     this.arrived_s = now_s;
     this.limbs.take(message.tick, now_s);
-    this.helpNote.take(message, now_s);
-    const game = viewOf(message);
+    this.notes.take(message, now_s);
+    this.visit = visitAfter(this.visit, message, now_s);
+    const isSecond = this.turn.take(message, now_s);
+    this.sound.cede(isSecond || this.otherWindowSounds);
+    const { game } = message;
     const changes = changesBetween(this.game, game);
     if (this.game && !game) this.scenes.begin(FIRST_GAME, this.limbs.side);
     this.game = game;
-    if (this.game) this.react(this.game, changes);
+    if (game) {
+      this.react(game, changes);
+      this.scenes.fetch(game.next_game);
+    }
   }
 
   /** Draws the moment `now_s`, unless that is sooner than the machine can bear. */
@@ -84,15 +105,20 @@ export class Picture {
     if (!this.pace.isDue(now_s)) return;
     const dt_s = Math.min(LONGEST_STEP_S, now_s - this.last_s);
     this.last_s = now_s;
-    const face = faceFor(access, this.newest, now_s - this.arrived_s);
+    const face = this.faceNow(access, now_s);
     const hands = this.limbs.animate(now_s);
     this.animate(face, dt_s, now_s, hands);
-    this.hud.show(this.game);
-    this.helpNote.show(face, now_s);
-    this.overlay.show(face, this.game, reasonFor(face, this.newest?.tick), now_s);
+    this.hud.show(this.game, face);
+    this.noteBoard.show(this.notes.at(now_s, face));
+    this.overlay.show(face, { game: this.game, visit: this.visit }, reasonFor(face, this.newest?.tick), now_s);
     this.stage.render();
     if (this.pace.frame(now_s)) this.stage.sharpen(this.pace.effort.pixels);
     this.mark(face, hands.acting);
+  }
+
+  private faceNow(access: Access, now_s: number): Face {
+    const face = faceFor(access, this.newest, now_s - this.arrived_s, this.visit);
+    return face === "playing" && this.scenes.isUnknown ? "noscene" : face;
   }
 
   /** A scene takes the stage. */
@@ -125,9 +151,13 @@ export class Picture {
     const still = this.stillness.matches;
     const { camera } = this.stage;
     const scene = this.scenes.current;
-    scene?.animate({ dt_s, now_s, hand: hands.acting, healthyHand: hands.healthy, camera, still });
+    const moment = { dt_s, now_s, hand: hands.acting, healthyHand: hands.healthy, camera, still };
+    scene?.animate(moment);
+    this.choices.offer(CHOOSING.has(face) ? (this.game?.choices ?? []) : [], this.game?.phase ?? "");
+    this.choices.animate(moment);
     this.effects.animate(dt_s, camera);
-    const aim = face === "playing" && scene?.guided !== false ? this.game?.aim : null;
+    const isGuided = face === "waiting" || (face === "playing" && scene?.guided !== false);
+    const aim = isGuided ? this.game?.aim : null;
     this.guide.lead(hands.acting, aim ? new Vector3(...aim) : null);
   }
 
@@ -138,8 +168,11 @@ export class Picture {
     dataset.drawn = String(this.drawn);
     dataset.face = face;
     dataset.state = this.newest?.tick.state ?? "";
+    dataset.game = this.game?.game ?? "";
     dataset.phase = this.game?.phase ?? "";
-    dataset.score = String(this.game?.score ?? 0);
+    dataset.score = String(this.game?.total_score ?? 0);
+    dataset.game = this.game?.game ?? "";
+    dataset.scene = this.scenes.shown;
     dataset.fps = this.pace.fps.toFixed(0);
     dataset.pixels = String(this.pace.effort.pixels);
     dataset.hand = hand

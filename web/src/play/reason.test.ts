@@ -1,7 +1,9 @@
 import { describe, expect, it } from "vitest";
+import type { LiveTick } from "../api/types";
 import { reasonFor } from "./reason";
 
-const held = (reason: string) => ({ reason, blockers: [] });
+const sensors = [{ name: "left" }] as unknown as LiveTick["sensors"];
+const held = (reason: string) => ({ reason, sensors, blockers: [] });
 
 describe("reasonFor", () => {
   it.each([
@@ -24,7 +26,12 @@ describe("reasonFor", () => {
     const blockers = [
       "The healthy arm is too far from where the exoskeleton holds the other (elbow by 1.1 rad); bring it near.",
     ];
-    expect(reasonFor("ready", { reason: "", blockers })).toBe("play.reason.apart");
+    expect(reasonFor("ready", { reason: "", sensors, blockers })).toBe("play.reason.apart");
+  });
+
+  it("says that no camera is connected before anything that follows from it", () => {
+    const blockers = ["No sensor sees the patient now."];
+    expect(reasonFor("ready", { reason: "", sensors: [], blockers })).toBe("play.reason.sensors");
   });
 
   it("leaves faults and stops to the therapist", () => {

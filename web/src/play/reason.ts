@@ -15,8 +15,9 @@ const ABOUT: readonly [RegExp, Key][] = [
 ];
 
 /** A sentence for the patient, or null where the face says all that they need to know. */
-export function reasonFor(face: Face, tick: Pick<LiveTick, "reason" | "blockers"> | undefined): Key | null {
+export function reasonFor(face: Face, tick: Pick<LiveTick, "reason" | "blockers" | "sensors"> | undefined): Key | null {
   if (!tick || (face !== "paused" && face !== "eased" && face !== "ready")) return null;
+  if (face === "ready" && tick.sensors.length === 0) return "play.reason.sensors";
   const words = face === "ready" ? tick.blockers.join(" ") : tick.reason;
   return ABOUT.find(([pattern]) => pattern.test(words))?.[1] ?? null;
 }

@@ -49,10 +49,10 @@ describe("SceneKeeper", () => {
     it.want("reach", "right");
     await vi.waitFor(() => expect(entered).toHaveLength(1));
     it.want("catch", "right");
-    expect([opened[0]?.closed, it.missing]).toEqual([false, "catch"]);
+    expect([opened[0]?.closed, it.shown]).toEqual([false, "reach"]);
     deliver(open);
     await vi.waitFor(() => expect(entered).toHaveLength(2));
-    expect([opened[0]?.closed, it.current, it.missing]).toEqual([true, opened[1], ""]);
+    expect([opened[0]?.closed, it.current, it.shown]).toEqual([true, opened[1], "catch"]);
   });
 
   it("gives a scene no other game's picture", async () => {
@@ -88,9 +88,9 @@ describe("SceneKeeper", () => {
     expect([attempts, entered.length]).toEqual([2, 1]);
   });
 
-  it("says which game this page has no scene for", () => {
+  it("says that this page has no scene for a game", () => {
     const { keeper: it } = keeper(() => Promise.resolve(open));
     it.want("unknown", "right");
-    expect([it.missing, it.current]).toEqual(["unknown", null]);
+    expect([it.isUnknown, it.current]).toEqual([true, null]);
   });
 });

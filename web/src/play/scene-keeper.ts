@@ -12,12 +12,11 @@ export type FindScene = (game: string) => (() => Promise<OpenScene>) | null;
 
 export class SceneKeeper {
   readonly group = new Group();
-  /** The game to whose name no scene was found, or whose scene is still on its way; "" once it is there. */
-  missing = "";
+  /** The game whose scene is on the stage. */
+  shown = "";
   private readonly known = new Map<string, OpenScene>();
   private readonly fetching = new Set<string>();
   private scene: GameScene | null = null;
-  private shown = "";
   private wanted = "";
   private side: Side = "right";
 
@@ -29,6 +28,11 @@ export class SceneKeeper {
 
   get current(): GameScene | null {
     return this.scene;
+  }
+
+  /** The game that is wanted has no scene on this page: the service is newer than the page. */
+  get isUnknown(): boolean {
+    return this.find(this.wanted) === null;
   }
 
   /** Makes the scene of `game` the one that is shown, as soon as it can be. */
@@ -72,7 +76,6 @@ export class SceneKeeper {
 
   private open(): void {
     const open = this.known.get(this.wanted);
-    this.missing = open ? "" : this.wanted;
     if (!open) {
       this.fetch(this.wanted);
       return;

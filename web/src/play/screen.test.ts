@@ -5,7 +5,8 @@ import { affectedSide, clockText, faceFor } from "./screen";
 
 function message(state: string, phase: string | null, session = "s1", compliant = false): LiveMessage {
   const game = phase === null ? null : { phase };
-  return { index: 1, tick: { state, session, exo: { compliant } }, game } as unknown as LiveMessage;
+  const open = session === "" ? null : { id: 1 };
+  return { tick: { state, session, exo: { compliant } }, game, session: open } as unknown as LiveMessage;
 }
 
 describe("faceFor", () => {
@@ -13,6 +14,10 @@ describe("faceFor", () => {
     ["engaged", "playing", "playing"],
     ["engaged", "rest", "rest"],
     ["engaged", "waiting", "waiting"],
+    ["engaged", "paused", "break"],
+    ["engaged", "between", "between"],
+    ["engaged", null, "waiting"],
+    ["hold", "between", "paused"],
     ["hold", "playing", "paused"],
     ["hold", "rest", "paused"],
     ["stopped", "playing", "stopped"],
@@ -21,25 +26,29 @@ describe("faceFor", () => {
     ["off", null, "ready"],
     ["stopped", "over", "over"],
   ])("shows a %s station in phase %s as %s", (state, phase, face) => {
-    expect(faceFor("open", message(state, phase), 0)).toBe(face);
+    expect(faceFor("open", message(state, phase), 0, null)).toBe(face);
   });
 
   it("tells a hold that gives way from a pause", () => {
-    expect(faceFor("open", message("hold", "playing", "s1", true), 0)).toBe("eased");
+    expect(faceFor("open", message("hold", "playing", "s1", true), 0, null)).toBe("eased");
   });
 
   it("welcomes until a session is open", () => {
-    expect(faceFor("open", null, 0)).toBe("welcome");
-    expect(faceFor("open", message("off", null, ""), 0)).toBe("welcome");
+    expect(faceFor("open", null, 0, null)).toBe("welcome");
+    expect(faceFor("open", message("off", null, ""), 0, null)).toBe("welcome");
+  });
+
+  it("takes leave after a session in which something was played", () => {
+    expect(faceFor("open", message("off", null, ""), 0, { session: 1, points: 40, until_s: null })).toBe("ended");
   });
 
   it("never shows an old picture as if it were true", () => {
-    expect(faceFor("open", message("engaged", "playing"), STALE_S + 0.1)).toBe("lost");
-    expect(faceFor("lost", message("engaged", "playing"), 0)).toBe("lost");
+    expect(faceFor("open", message("engaged", "playing"), STALE_S + 0.1, null)).toBe("lost");
+    expect(faceFor("lost", message("engaged", "playing"), 0, null)).toBe("lost");
   });
 
   it("asks for a log-in where there is none", () => {
-    expect(faceFor("locked", null, 0)).toBe("locked");
+    expect(faceFor("locked", null, 0, null)).toBe("locked");
   });
 });
 

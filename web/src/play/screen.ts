@@ -1,6 +1,7 @@
 // Which of its few faces the patient's screen shows: playing, or one plain sentence about what is going on.
 import { type Link, STALE_S } from "../api/live";
 import type { LiveMessage } from "../api/types";
+import type { Visit } from "./visit";
 
 export type Face =
   | "connecting"
@@ -13,21 +14,27 @@ export type Face =
   | "stopped"
   | "fault"
   | "waiting"
+  | "break"
   | "rest"
+  | "between"
   | "over"
+  | "ended"
+  | "noscene"
   | "playing";
+
+type GamePhase = NonNullable<LiveMessage["game"]>["phase"];
 
 /** The connection as this page knows it: `locked` when the service answers but nobody has logged in here. */
 export type Access = Link | "locked";
 
-/** The face for this connection and the newest message, which came `age_s` ago. */
-export function faceFor(link: Access, message: LiveMessage | null, age_s: number): Face {
+/** The face for this connection and the newest message, which came `age_s` ago; `visit` is what was played before. */
+export function faceFor(link: Access, message: LiveMessage | null, age_s: number, visit: Visit | null): Face {
   if (link === "lost" || link === "locked") return link;
   if (!message) return link === "open" ? "welcome" : "connecting";
   if (age_s > STALE_S) return "lost";
   if (message.game?.phase === "over") return "over";
   const { tick } = message;
-  if (!tick?.session) return "welcome";
+  if (!message.session || !tick?.session) return visit ? "ended" : "welcome";
   return tick.state === "engaged" ? faceOfGame(message.game?.phase) : faceOfState(tick);
 }
 
@@ -38,8 +45,17 @@ function faceOfState({ state, exo }: LiveMessage["tick"]): Face {
   return "ready";
 }
 
-function faceOfGame(phase: string | undefined): Face {
-  return phase === "rest" || phase === "playing" ? phase : "waiting";
+const OF_PHASE: Readonly<Record<GamePhase, Face>> = {
+  waiting: "waiting",
+  playing: "playing",
+  rest: "rest",
+  paused: "break",
+  between: "between",
+  over: "over",
+};
+
+function faceOfGame(phase: GamePhase | undefined): Face {
+  return phase ? OF_PHASE[phase] : "waiting";
 }
 
 /** The side whose arm is shown. */

@@ -37,6 +37,9 @@ const CUES: Record<Cue, readonly Tone[]> = {
 export class Sound {
   private context: AudioContext | null = null;
   private silenced = localStorage.getItem(REMEMBERED_AS) === "yes";
+  private elsewhere = false;
+  /** Called when `muted` may have changed. */
+  onChange: () => void = () => {};
 
   constructor() {
     const wake = () => this.wake();
@@ -44,14 +47,22 @@ export class Sound {
     document.addEventListener("keydown", wake);
   }
 
-  /** True while nothing can be heard: switched off, or nobody has touched the page yet. */
+  /** True while nothing can be heard: switched off, another screen's turn, or nobody has touched the page yet. */
   get muted(): boolean {
-    return this.silenced || this.context === null;
+    return this.silenced || this.elsewhere || this.context === null;
+  }
+
+  /** Another screen makes the sounds, or no longer; a person's click on the button overrules it. */
+  cede(elsewhere: boolean): void {
+    if (elsewhere === this.elsewhere) return;
+    this.elsewhere = elsewhere;
+    this.onChange();
   }
 
   /** To be called from a person's click. */
   mute(silenced: boolean): void {
     this.silenced = silenced;
+    this.elsewhere = false;
     localStorage.setItem(REMEMBERED_AS, silenced ? "yes" : "no");
     this.wake();
     this.play("hit");
@@ -64,7 +75,7 @@ export class Sound {
 
   ring(tones: readonly Tone[], x_m = 0): void {
     const { context } = this;
-    if (!context || this.silenced) return;
+    if (!context || this.muted) return;
     const place = new StereoPannerNode(context, { pan: panOf(x_m) });
     place.connect(context.destination);
     for (const one of tones) strike(context, one, place);

@@ -1,7 +1,12 @@
-// Pictures painted once at the start: a soft glow and the table's wood with its depth lines.
+// Pictures painted once: a soft glow and the table's wood with its depth lines.
 import { CanvasTexture, SRGBColorSpace } from "three";
 
-function painted(width: number, height: number, paint: (brush: CanvasRenderingContext2D) => void): CanvasTexture {
+/** A picture drawn once with a brush. */
+export function painted(
+  width: number,
+  height: number,
+  paint: (brush: CanvasRenderingContext2D) => void,
+): CanvasTexture {
   const canvas = document.createElement("canvas");
   canvas.width = width;
   canvas.height = height;
