@@ -7,11 +7,13 @@ import { gameRow } from "./en/game-row";
 import { gameTrace } from "./en/game-trace";
 import { gameWipe } from "./en/game-wipe";
 import { live } from "./en/live";
+import { metrics } from "./en/metrics";
 import { patient } from "./en/patient";
 import { plan } from "./en/plan";
 import { play } from "./en/play";
 import { progress } from "./en/progress";
 import { replay } from "./en/replay";
+import { report } from "./en/report";
 import { scores } from "./en/scores";
 import { session } from "./en/session";
 import { today } from "./en/today";
@@ -21,6 +23,7 @@ export const en = {
   ...play,
   ...live,
   ...session,
+  ...metrics,
   ...patient,
   ...frame,
   ...gameReach,
@@ -34,5 +37,6 @@ export const en = {
   ...scores,
   ...replay,
   ...plan,
+  ...report,
   ...progress,
 } as const;

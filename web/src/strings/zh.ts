@@ -9,11 +9,13 @@ import { gameRow } from "./zh/game-row";
 import { gameTrace } from "./zh/game-trace";
 import { gameWipe } from "./zh/game-wipe";
 import { live } from "./zh/live";
+import { metrics } from "./zh/metrics";
 import { patient } from "./zh/patient";
 import { plan } from "./zh/plan";
 import { play } from "./zh/play";
 import { progress } from "./zh/progress";
 import { replay } from "./zh/replay";
+import { report } from "./zh/report";
 import { scores } from "./zh/scores";
 import { session } from "./zh/session";
 import { today } from "./zh/today";
@@ -23,6 +25,7 @@ export const zh: Record<Key, string> = {
   ...play,
   ...live,
   ...session,
+  ...metrics,
   ...patient,
   ...frame,
   ...gameReach,
@@ -36,5 +39,6 @@ export const zh: Record<Key, string> = {
   ...scores,
   ...replay,
   ...plan,
+  ...report,
   ...progress,
 };

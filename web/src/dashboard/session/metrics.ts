@@ -3,10 +3,12 @@ import type { Metric, SessionDetail } from "../../api/types";
 import { isKey, t } from "../../strings";
 import { degrees, figure } from "../format";
 
-/** A group belongs together on the page; `byJoint` ones are tables with a row per joint (or sensor). */
+/** A group belongs together on the page; `byJoint` ones are tables with a row per joint (or game, or sensor). */
 const GROUPS = [
-  { id: "exercise", byJoint: false, names: /^(active_minutes|movements|targets_\w+|success_rate)$/ },
-  { id: "movement", byJoint: false, names: /^(movement_time|peak_speed|mean_speed|path_ratio|sparc|trunk_\w+)$/ },
+  { id: "exercise", byJoint: false, names: /^(active_minutes|movements|targets_\w+|success_rate|repetitions)$/ },
+  { id: "games", byJoint: true, names: /^(game_\w+|reaction_time|accuracy|hold_stability)$/ },
+  { id: "movement", byJoint: false, names: /^(movement_time|\w+_speed|path_ratio|sparc|velocity_peaks)$/ },
+  { id: "posture", byJoint: false, names: /^(trunk|shoulder)_/ },
   { id: "range", byJoint: true, names: /^range_/ },
   { id: "help", byJoint: false, names: /^(minutes_\w+|help\w*|\w+_work|own_work_share|soft_holds|pain_calls)$/ },
   { id: "own", byJoint: true, names: /^own_/ },
@@ -42,9 +44,9 @@ export function fullNameOf(metric: Metric): string {
   return metric.joint ? `${nameOf(metric)}, ${jointOf(metric)}` : nameOf(metric);
 }
 
-/** The joint, or the sensor, whose figure it is. */
+/** The joint, the game, or the sensor, whose figure it is. */
 export function jointOf(metric: Metric): string {
-  return translatedOr(`joint.${metric.joint}`, metric.joint);
+  return translatedOr(`joint.${metric.joint}`, translatedOr(`game.${metric.joint}`, metric.joint));
 }
 
 export function explanationOf(metric: Metric): string {
