@@ -7,7 +7,8 @@ tower). Where the time is over the thing is back at its place and the next task 
 is set.
 
 Things: "cup" (its progress is how full it is), "jug", and the blocks "cube", "barrel" and, on top, "roof"; state
-"standing", "wanted" (to be taken now), "held" (it goes with the hand) or "stacked". "goal" is where the hand is to stay
+"standing", "wanted" (to be taken now), "held" (it goes with the hand) or "stacked". "base": where the tower is to
+stand. "goal" is where the hand is to stay
 now, its progress the stay, its state the step: "take", "drink", "pour", "put" or "stack". "timer": its progress is the
 share of the time that is gone. Feedback: "poured", "drunk", "stacked", and "tower" with the last block.
 """
@@ -130,10 +131,11 @@ class EverydayRules:
         table = self._kitchen = kitchen(self._workspace, level, self._rng)
         self._full = 0.0
         shapes = [SHAPES[k % len(SHAPES)] for k in range(len(table.blocks) - 1)]
-        made = [("cup", table.cup), ("jug", table.jug), *zip((*shapes, "roof"), table.blocks, strict=True)]
+        base = ("base", table.tower[0])
+        made = [base, ("cup", table.cup), ("jug", table.jug), *zip((*shapes, "roof"), table.blocks, strict=True)]
         things = [Thing(self._new_id(), kind, place) for kind, place in made]
         self._things = {thing.id: thing for thing in things}
-        cup, jug, *blocks = things
+        _, cup, jug, *blocks = things
         self._todo = [("pour", jug.id), ("drink", cup.id), *(("stack", block.id) for block in blocks)]
         return table
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import hypot
 from typing import Final
 
 import numpy as np
@@ -11,7 +12,7 @@ from fusion.kinematics.angles import OUTWARD
 from games.game import Point, Workspace
 from games.levels import between
 from games.nearest import nearest_reach
-from games.workspace import AWKWARD_M_PER_RAD, IN_FRONT_M, Reach, distance_m, reachable
+from games.workspace import AWKWARD_M_PER_RAD, Reach, distance_m, reachable
 
 EASY_BLOCKS, HARD_BLOCKS = 2, 4
 BLOCK_M: Final = 0.07
@@ -23,10 +24,17 @@ HIGHEST_M: Final = 0.18
 """Things stand at least this far below the shoulder, as on a table ..."""
 LOWEST_M: Final = 0.36
 """... and no lower than this, where the eyes still see them."""
+AHEAD_M: Final = 0.32
+"""They stand at least this far ahead of the shoulder: nearer the sleeve hides them from the patient's eyes."""
+ASIDE_M: Final = 0.15
+"""And at most this far outward of it, towards which the elbow turns."""
 CROWDED_M: Final = 0.16
+"""Things nearer than this to one another, as the eyes see them, are avoided."""
+SIGHT: Final = (0.8, -0.6)
+"""Of a step up and a step back, what the eyes see as upward: they look down at the table."""
 MOUTH_M: Final = (0.05, 0.06, -0.22)
 """The hand with a cup at the lips: outward from the midline; up and back from the shoulder."""
-OVER_CUP_M: Final = (0.08, 0.12, 0.0)
+OVER_CUP_M: Final = (0.06, 0.12, 0.0)
 """The hand that pours, as (outward, up, back) from where it takes the cup."""
 
 
@@ -75,11 +83,18 @@ def _next(candidates: list[Reach], workspace: Workspace, level: float, places: l
 
 def _cost(reach: Reach, workspace: Workspace, wanted_m: float, places: list[Point]) -> float:
     """How far a place is from what is wanted, in metres; hidden, high or crowded costs more than a wrong way."""
-    _, y, z = (p - s for p, s in zip(reach.position, workspace.shoulder, strict=True))
-    hidden_m = max(z + IN_FRONT_M, 0.0) + max(y + HIGHEST_M, 0.0) + max(-LOWEST_M - y, 0.0)
-    crowded_m = sum(max(CROWDED_M - distance_m(reach.position, place), 0.0) for place in places)
+    x, y, z = (p - s for p, s in zip(reach.position, workspace.shoulder, strict=True))
+    aside_m = max(OUTWARD[workspace.side] * x - ASIDE_M, 0.0)
+    hidden_m = max(z + AHEAD_M, 0.0) + max(y + HIGHEST_M, 0.0) + max(-LOWEST_M - y, 0.0) + aside_m
+    crowded_m = sum(max(CROWDED_M - _seen_apart_m(reach.position, place), 0.0) for place in places)
     way_m = abs(distance_m(reach.position, places[-1]) - wanted_m) if places else 0.0
     return way_m + 20.0 * hidden_m + 15.0 * crowded_m + AWKWARD_M_PER_RAD * abs(reach.pose_rad[2])
+
+
+def _seen_apart_m(a: Point, b: Point) -> float:
+    """How far apart two places look."""
+    right, up, back = (p - q for p, q in zip(a, b, strict=True))
+    return hypot(right, SIGHT[0] * up + SIGHT[1] * back)
 
 
 def _mouth(workspace: Workspace) -> Point:
