@@ -19,15 +19,15 @@ BLOCK_M: Final = 0.07
 """Height of a block: the tower's next place is this much higher."""
 EASY_APART_M, HARD_APART_M = 0.18, 0.38
 """From one thing to the next."""
-CANDIDATES: Final = 96
-HIGHEST_M: Final = 0.18
+CANDIDATES: Final = 144
+EASY_BELOW_M, HARD_BELOW_M = 0.2, 0.1
 """Things stand at least this far below the shoulder, as on a table ..."""
 LOWEST_M: Final = 0.36
 """... and no lower than this, where the eyes still see them."""
 AHEAD_M: Final = 0.32
 """They stand at least this far ahead of the shoulder: nearer the sleeve hides them from the patient's eyes."""
-ASIDE_M: Final = 0.15
-"""And at most this far outward of it, towards which the elbow turns."""
+EASY_ASIDE_M, HARD_ASIDE_M = 0.1, 0.25
+"""And at most this far outward of it."""
 CROWDED_M: Final = 0.16
 """Things nearer than this to one another, as the eyes see them, are avoided."""
 SIGHT: Final = (0.8, -0.6)
@@ -77,18 +77,24 @@ def kitchen(workspace: Workspace, level: float, rng: np.random.Generator) -> Kit
 
 
 def _next(candidates: list[Reach], workspace: Workspace, level: float, places: list[Point]) -> Point:
+    return min(candidates, key=lambda reach: _cost(reach, workspace, level, places)).position
+
+
+def _cost(reach: Reach, workspace: Workspace, level: float, places: list[Point]) -> float:
+    """How far a place is from what is wanted, in metres; hidden or crowded costs more than a wrong way."""
     wanted_m = between(EASY_APART_M, HARD_APART_M, level)
-    return min(candidates, key=lambda reach: _cost(reach, workspace, wanted_m, places)).position
-
-
-def _cost(reach: Reach, workspace: Workspace, wanted_m: float, places: list[Point]) -> float:
-    """How far a place is from what is wanted, in metres; hidden, high or crowded costs more than a wrong way."""
-    x, y, z = (p - s for p, s in zip(reach.position, workspace.shoulder, strict=True))
-    aside_m = max(OUTWARD[workspace.side] * x - ASIDE_M, 0.0)
-    hidden_m = max(z + AHEAD_M, 0.0) + max(y + HIGHEST_M, 0.0) + max(-LOWEST_M - y, 0.0) + aside_m
-    crowded_m = sum(max(CROWDED_M - _seen_apart_m(reach.position, place), 0.0) for place in places)
     way_m = abs(distance_m(reach.position, places[-1]) - wanted_m) if places else 0.0
+    crowded_m = sum(max(CROWDED_M - _seen_apart_m(reach.position, place), 0.0) for place in places)
+    hidden_m = _outside_m(reach.position, workspace, level)
     return way_m + 20.0 * hidden_m + 15.0 * crowded_m + AWKWARD_M_PER_RAD * abs(reach.pose_rad[2])
+
+
+def _outside_m(place: Point, workspace: Workspace, level: float) -> float:
+    """How far a place is nearer, further aside, higher or lower than things stand."""
+    x, y, z = (p - s for p, s in zip(place, workspace.shoulder, strict=True))
+    aside_m = OUTWARD[workspace.side] * x - between(EASY_ASIDE_M, HARD_ASIDE_M, level)
+    above_m = y + between(EASY_BELOW_M, HARD_BELOW_M, level)
+    return max(z + AHEAD_M, 0.0) + max(aside_m, 0.0) + max(above_m, 0.0) + max(-LOWEST_M - y, 0.0)
 
 
 def _seen_apart_m(a: Point, b: Point) -> float:
