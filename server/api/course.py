@@ -13,7 +13,7 @@ from db.limits import PassiveRange
 from db.workspace import SessionWorkspace
 from fusion.skeleton import Side
 from games.catalogue import GAMES
-from games.game import GameSettings, GameView, Wish, Workspace
+from games.game import GameSettings, GameView, Trial, Wish, Workspace
 from games.programme import Exercise as GameExercise
 from games.programme import Programme
 from games.replay import GameRecord
@@ -88,6 +88,11 @@ class Course:
     def played(self) -> tuple[PlayedExercise, ...]:
         """What has been played so far."""
         return () if self.playing is None else self.playing.played
+
+    @property
+    def trials(self) -> tuple[Trial, ...]:
+        """Every attempt so far."""
+        return () if self.playing is None else self.playing.trials
 
     def step(self, tick: LiveTick) -> GameView | None:
         """Take a tick; the games' picture, None until they are open."""

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import logging
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from fastapi.concurrency import run_in_threadpool
@@ -12,7 +14,9 @@ from db.errors import DatabaseError
 from db.therapy_session import SessionStatus, TherapySession
 from fusion.errors import MirrorlimbError
 from fusion.skeleton import Side
+from games.game import Trial
 from server.api import session_store
+from server.api.attempts import as_attempts, attempts_again
 from server.api.forms import Curves
 from server.api.game_log import game_log_of
 from server.api.journal import Journal
@@ -34,10 +38,15 @@ class Figures:
     def __init__(self, data: Path, database: Database, journal: Journal) -> None:
         self._data, self._database, self._journal = data, database, journal
 
-    async def measure(self, session_id: int) -> None:
-        """Store what a session's recording says was measured; what fails is tried again at the next start."""
+    async def measure(self, session_id: int, trials: Sequence[Trial] | None = None) -> None:
+        """Store what a session's recording says was measured; what fails is tried again at the next start.
+
+        Args:
+            session_id: of a session that is over.
+            trials: of its games; None = they are played again from their file, which takes a while.
+        """
         try:
-            await run_in_threadpool(self._measure_now, session_id)
+            await run_in_threadpool(self._measure_now, session_id, trials)
         except Exception as error:  # whatever it is, the session is over and must read so
             expected = isinstance(error, MirrorlimbError | DatabaseError | OSError)
             log.warning("session %d could not be measured: %s", session_id, error, exc_info=not expected)
@@ -54,12 +63,14 @@ class Figures:
         is_over = found.status is not SessionStatus.OPEN
         return await run_in_threadpool(read_curves, self._data / found.recording, is_over)
 
-    def _measure_now(self, session_id: int) -> None:
+    def _measure_now(self, session_id: int, trials: Sequence[Trial] | None) -> None:
         found = session_store.existing_session(self._database, session_id)
         if not found.played:
             self._play_again(found)
         counts = session_store.counts(self._database, session_id)
-        metrics = measure(self._data / found.recording, Side(found.affected_side).other, counts)
+        recording = self._data / found.recording
+        attempts = attempts_again(recording) if trials is None else as_attempts(trials)
+        metrics = measure(recording, Side(found.affected_side).other, replace(counts, attempts=attempts))
         session_store.store_metrics(self._database, session_id, metrics)
 
     def _play_again(self, found: TherapySession) -> None:

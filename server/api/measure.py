@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import nan
 from pathlib import Path
 
@@ -15,7 +15,6 @@ from fusion.metrics.metric import Metric
 from fusion.metrics.record import Attempt, DriveTrack, SensorTrack, SessionRecord
 from fusion.metrics.session import session_metrics
 from fusion.skeleton import Side
-from server.api.attempts import attempts_of
 from server.api.forms import Curves, JointCurves
 from server.api.recorded import RecordedTick, read_ticks
 from server.messages import EXO_JOINTS
@@ -42,8 +41,7 @@ def measure(recording: Path, healthy_side: Side, counts: Counts) -> list[MetricB
     Raises:
         RecordingError: the recording cannot be read, or holds no tick.
     """
-    told = replace(counts, attempts=attempts_of(recording))
-    return [_row(metric) for metric in session_metrics(session_record(read_ticks(recording), healthy_side, told))]
+    return [_row(metric) for metric in session_metrics(session_record(read_ticks(recording), healthy_side, counts))]
 
 
 def session_record(ticks: Sequence[RecordedTick], healthy_side: Side, counts: Counts) -> SessionRecord:

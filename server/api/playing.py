@@ -6,7 +6,7 @@ from collections import deque
 from collections.abc import Sequence
 
 from db.exercise import Exercise, PlayedExercise
-from games.game import GameInput, GameSettings, GameView, Wish
+from games.game import GameInput, GameSettings, GameView, Trial, Wish
 from games.programme import Exercise as GameExercise
 from games.replay import GameRecord, opened
 from server.api.exercises import FIRST_LEVEL
@@ -39,6 +39,11 @@ class Playing:
     def played(self) -> tuple[PlayedExercise, ...]:
         """What became of every exercise that was begun."""
         return self._tally.played
+
+    @property
+    def trials(self) -> tuple[Trial, ...]:
+        """Every attempt so far."""
+        return self._programme.trials
 
     def wish(self, wish: Wish, level: float = 0.0) -> None:
         """Somebody wishes something; it is done with the next tick."""

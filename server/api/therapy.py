@@ -180,7 +180,7 @@ class Therapy:
             self._course = None
             self._authority.end()
             await self._journal.written()
-            await self._figures.measure(session_id)
+            await self._figures.measure(session_id, course.trials)
             return await run_in_threadpool(session_store.detail, self._database, session_id)
 
     def _begin(

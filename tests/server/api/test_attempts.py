@@ -9,7 +9,7 @@ from games.game import GameInput, GameSettings, Workspace
 from games.player import QUICK, Player
 from games.programme import Exercise
 from games.replay import GameRecord, opened
-from server.api.attempts import attempts_of
+from server.api.attempts import attempts_again
 from server.api.game_log_writer import GameLogWriter
 
 WORKSPACE = Workspace(Side.LEFT, (-0.2, 0.0, 0.0), 0.3, 0.3, (0.1, 1.5), (0.3, 1.3), (-0.5, 0.5), (0.3, 1.8))
@@ -31,7 +31,7 @@ def recording(tmp_path):
 
 def test_attempts_are_those_of_the_game(recording):
     path, games = recording
-    told = attempts_of(path)
+    told = attempts_again(path)
     assert len(told) == len(games.trials) > 3
     for attempt, trial in zip(told, games.trials, strict=True):
         assert (attempt.game, attempt.success, attempt.level) == (trial.game, trial.success, trial.level)
@@ -39,12 +39,12 @@ def test_attempts_are_those_of_the_game(recording):
 
 
 def test_a_session_without_games_has_none(tmp_path):
-    assert attempts_of(tmp_path / "session-000002.mcap") == ()
+    assert attempts_again(tmp_path / "session-000002.mcap") == ()
 
 
 def test_a_spoilt_file_has_none_and_says_why(recording, caplog):
     path, _ = recording
     path.with_suffix(".game").write_bytes(b"no game")
     with caplog.at_level(logging.WARNING):
-        assert attempts_of(path) == ()
+        assert attempts_again(path) == ()
     assert "does not hold a session's games" in caplog.text
