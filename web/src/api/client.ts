@@ -7,6 +7,7 @@ import type {
   Action,
   Assistance,
   ErrorDetail,
+  GameWish,
   PatientForm,
   PatientLimits,
   PlanForm,
@@ -121,6 +122,12 @@ export const takeAuthority = (id: number, confirmed: boolean) =>
   taken(http.POST("/api/sessions/{session_id}/authority", { ...session(id), body: { confirmed } }));
 export const followBody = (id: number, sensor: string, body: string) =>
   taken(http.POST("/api/sessions/{session_id}/follow", { ...session(id), body: { sensor, body } }));
+/** Wishes something of the game; `level` goes with `pin`. */
+export const wishOfGame = (id: number, wish: GameWish, level: number | null = null) =>
+  taken(http.POST("/api/sessions/{session_id}/game", { ...session(id), body: { wish, level } }));
+export const readWorkspace = (id: number) => taken(http.GET("/api/sessions/{session_id}/workspace", session(id)));
+/** The games go by what the healthy arm has shown. */
+export const takeWorkspace = (id: number) => taken(http.POST("/api/sessions/{session_id}/workspace", session(id)));
 export const endSession = (id: number, painAfter: number | null) =>
   taken(http.POST("/api/sessions/{session_id}/end", { ...session(id), body: { pain_after: painAfter } }));
 

@@ -14,9 +14,9 @@ import { LiveCurve } from "./curve";
 import { EndQuestion } from "./end-question";
 import { Exo } from "./exo/panel";
 import { type Feed, useFromFeed } from "./feed";
+import { GamePanel } from "./game/panel";
 import "./live.css";
 import { Lost } from "./lost";
-import { Sensors } from "./sensors";
 import { StateBanner } from "./state-banner";
 import { useCharge } from "./use-charge";
 import { useView3d, View3d, View3dSwitch } from "./view3d";
@@ -78,7 +78,7 @@ function Live({ session, feed, account }: Props & { session: Session }) {
       </div>
       <div class="live-foot">
         <Exo feed={feed} session={session.id} charge={charge} />
-        <Sensors feed={feed} />
+        <GamePanel feed={feed} session={session.id} charge={charge} />
         <Aside feed={feed} session={session} who={who} onEnd={() => setEnding(true)} />
       </div>
       {isLost && <Lost charge={charge} />}

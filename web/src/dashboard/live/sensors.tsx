@@ -8,7 +8,7 @@ import { type Feed, useFromFeed } from "./feed";
 import "./sensors.css";
 
 const SILENT_AFTER_S = 1;
-const JOINT_COUNT = 25;
+export const JOINT_COUNT = 25;
 
 export function Sensors({ feed }: { feed: Feed }) {
   const sensors = useFromFeed(feed, 4, ({ newest }) => newest?.tick.sensors ?? []);
@@ -25,7 +25,7 @@ export function Sensors({ feed }: { feed: Feed }) {
   );
 }
 
-function warningsOf({ sensor, warnings }: SensorView): string[] {
+export function warningsOf({ sensor, warnings }: SensorView): string[] {
   return warnings.map((warning) => `${sensor}: ${sentence(warning)}`);
 }
 
@@ -74,7 +74,7 @@ function Row({ sensor }: { sensor: SensorView }) {
   );
 }
 
-function stateOf(sensor: SensorView): string {
+export function stateOf(sensor: SensorView): string {
   if (sensor.age_s > SILENT_AFTER_S) return `✕ ${t("sensor.silent")}`;
   if (!sensor.aligned) return `… ${t("sensor.aligning")}`;
   return `✓ ${t(sensor.is_reference ? "sensor.reference" : "sensor.aligned")}`;

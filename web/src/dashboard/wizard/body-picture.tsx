@@ -3,6 +3,7 @@ import type { LiveTick, Side } from "../../api/types";
 import { t } from "../../strings";
 import { type Feed, useFromFeed } from "../live/feed";
 import { armLines, type Frame, frameOf, type Joint3, type Line, trunkLines } from "./body-lines";
+import { Trail } from "./trail";
 
 const PICTURES_PER_S = 8;
 /** Metres about the top of the breastbone: room for both arms stretched out. */
@@ -13,9 +14,11 @@ interface Props {
   affected: Side;
   /** Each sensor's own picture of the body too. */
   withSensors: boolean;
+  /** Where the healthy hand has been. */
+  withTrail: boolean;
 }
 
-export function BodyPicture({ feed, affected, withSensors }: Props) {
+export function BodyPicture({ feed, affected, withSensors, withTrail }: Props) {
   const tick = useFromFeed(feed, PICTURES_PER_S, ({ newest }) => newest?.tick ?? null);
   const joints = (tick?.body?.joints_in_room ?? []) as readonly Joint3[];
   const frame = frameOf(joints);
@@ -23,6 +26,7 @@ export function BodyPicture({ feed, affected, withSensors }: Props) {
   const healthy = affected === "left" ? "right" : "left";
   return (
     <svg class="wizard-body" viewBox={VIEW} role="img" aria-label={t("wizard.picture.body")}>
+      {withTrail && <Trail tick={tick} />}
       <Lines lines={trunkLines(joints, frame)} name="wizard-trunk" />
       <circle class="wizard-head" {...headOf(joints, frame)} r="0.11" />
       <Lines lines={armLines(joints, healthy, frame)} name="wizard-healthy" />

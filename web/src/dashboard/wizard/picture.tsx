@@ -38,13 +38,14 @@ function Room({ facts }: { facts: Facts }) {
 
 function Body({ step, facts, feed }: Props) {
   const withSensors = step === "alignment";
+  const withTrail = step === "range";
+  const words = withSensors ? "seen" : withTrail ? "trail" : "behind";
   return (
     <>
-      <BodyPicture feed={feed} affected={facts.affectedSide} withSensors={withSensors} />
+      <BodyPicture feed={feed} affected={facts.affectedSide} withSensors={withSensors} withTrail={withTrail} />
       <figcaption class="small soft">
         <span class="key">{t("arm.healthy.short")}</span>{" "}
-        <span class="key key-affected">{t("arm.affected.short")}</span>{" "}
-        {t(withSensors ? "wizard.picture.seen" : "wizard.picture.behind")}
+        <span class="key key-affected">{t("arm.affected.short")}</span> {t(`wizard.picture.${words}`)}
       </figcaption>
     </>
   );

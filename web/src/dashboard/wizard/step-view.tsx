@@ -1,6 +1,6 @@
 // What a step asks and says, one function for each.
 import type { ComponentChildren } from "preact";
-import type { Patient, Plan, Session } from "../../api/types";
+import type { Patient, Plan, Session, SessionWorkspace } from "../../api/types";
 import { t } from "../../strings";
 import type { Feed } from "../live/feed";
 import type { Person } from "../live/people";
@@ -9,6 +9,7 @@ import type { Answer, Answers } from "./answers";
 import { AlignmentStep } from "./step-alignment";
 import { ArmStep } from "./step-arm";
 import { PersonStep } from "./step-person";
+import { RangeStep } from "./step-range";
 import { ReadyStep } from "./step-ready";
 import { SensorsStep } from "./step-sensors";
 import type { Facts, Step } from "./steps";
@@ -24,6 +25,9 @@ export interface StepProps {
   answer: Answer;
   onChoose: (person: Person) => void;
   onSigned: () => void;
+  /** Of the open session. */
+  workspace: SessionWorkspace | null;
+  onTaken: () => void;
 }
 
 const VIEWS: Record<Step, (props: StepProps) => ComponentChildren> = {
@@ -32,7 +36,7 @@ const VIEWS: Record<Step, (props: StepProps) => ComponentChildren> = {
   alignment: ({ facts }) => <AlignmentStep facts={facts} />,
   arm: (props) => <ArmStep {...props} />,
   limits: ({ patient, onSigned }) => <LimitsCard patient={patient} onConfirmed={onSigned} />,
-  range: () => <p>{t("wizard.later")}</p>,
+  range: (props) => <RangeStep {...props} />,
   ready: (props) => <ReadyStep {...props} />,
 };
 

@@ -16,6 +16,7 @@ import { Picture } from "./picture";
 import { Rail } from "./rail";
 import { StepView } from "./step-view";
 import { firstToDo, type Step } from "./steps";
+import { useWorkspace } from "./use-workspace";
 
 interface Props {
   patient: Patient;
@@ -30,13 +31,14 @@ interface Props {
 
 export function Wizard({ patient, plan, session, feed, account, onSigned, onOpened }: Props) {
   const [answers, setAnswers] = useState<Answers>(() => firstAnswers(patient, plan?.exercises ?? null));
-  const [gone, setGone] = useState<Step | null>(null);
+  const [gone, setGone] = useState<Step | null>(session?.patient_id === patient.id ? "range" : null);
   const own = session?.patient_id === patient.id ? session : null;
+  const workspace = useWorkspace(own, gone === "range");
   const facts = useFacts(feed, patient, {
     confirmedSide: answers.side,
     choice: answers.choice,
     isOpen: own !== null,
-    isRangeTaken: false,
+    isRangeTaken: workspace.value?.workspace.source === "shown",
   });
   const doing = useDoing();
   // Until somebody presses something, the wizard shows the first step that needs a person.
@@ -74,6 +76,11 @@ export function Wizard({ patient, plan, session, feed, account, onSigned, onOpen
             answer={answer}
             onChoose={(person) => choose(choiceOf(person), own, doing, answer)}
             onSigned={onSigned}
+            workspace={workspace.value}
+            onTaken={() => {
+              workspace.again();
+              setGone("ready");
+            }}
           />
           <ProblemBox problem={doing.problem} onClose={doing.forget} />
           <Foot at={at} facts={facts} isFree={session === null} busy={doing.busy} onGo={setGone} onOpen={opening} />

@@ -82,4 +82,15 @@ export const wizard = {
   "programme.more": "One minute more",
   "programme.drop": "Leave out: {game}",
   "programme.add": "Another game",
+  "wizard.range.do":
+    "Let {name} show with the healthy arm how far it goes comfortably: up and down, out to the side and across, elbow bent and stretched. The affected arm stays still.",
+  "wizard.range.more": "a little more",
+  "wizard.range.take": "Use what was shown",
+  "wizard.range.optional": "This may be left out: press Next, or Start.",
+  "wizard.range.begun": "The games have begun; their range stays as it is this time.",
+  "wizard.range.source.shown": "✓ The games go by what the healthy arm has shown.",
+  "wizard.range.source.last": "The games go by the last session's range.",
+  "wizard.range.source.limits": "Nothing has been measured yet: the games use the whole range that the limits allow.",
+  "wizard.range.pushed": "The last session went well, so they ask for a little more.",
+  "wizard.picture.trail": "· the pale spots: where the healthy hand has been.",
 } as const;
