@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import datetime
-from math import dist
+from math import dist, inf
 from pathlib import Path
 
 from db.exercise import Exercise, PlayedExercise
@@ -24,7 +24,7 @@ from server.api.playing import Playing, as_games
 from server.api.screen_watch import ScreenWatch
 from server.api.workspace import ends
 from server.api.workspace_meter import WorkspaceMeter
-from server.messages import DemoGoal, DriveState, JointLimits, LiveTick, Point
+from server.messages import DriveState, JointLimits, LiveTick
 
 _PHASES = {
     DriveState.OFF: SessionPhase.PREPARING,
@@ -34,6 +34,9 @@ _PHASES = {
     DriveState.FAULT: SessionPhase.STOPPED,
     DriveState.STOPPED: SessionPhase.STOPPED,
 }
+
+ASKED_S = 3.0
+"""So long after somebody last looked at what has been shown, the patient is still asked to show it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,6 +81,7 @@ class Course:
         """The games are being opened, or open: what they begin with is decided."""
         self._state = DriveState.OFF
         self._t_s = opening.t_started_s
+        self._asked_s = -inf
 
     @property
     def picture(self) -> GameView | None:
@@ -104,6 +108,15 @@ class Course:
         if self.playing is not None and not self.saving:
             self.playing.step(tick, dt_s, active=engaged and not self.screens.is_lost)
         return self.picture
+
+    def ask_to_show(self) -> None:
+        """Somebody looks how far the healthy arm can go."""
+        self._asked_s = self._t_s
+
+    @property
+    def is_asked_to_show(self) -> bool:
+        """Whether the patient should show now how far the healthy arm can go."""
+        return self.phase is SessionPhase.PREPARING and self._t_s - self._asked_s <= ASKED_S
 
     @property
     def lacks_games(self) -> bool:
@@ -158,25 +171,6 @@ def warm_up() -> None:
 def counted(picture: GameView | None) -> tuple[int, int]:
     """Which exercise it is, and how many attempts have ended in it."""
     return (0, 0) if picture is None else (picture.exercise, picture.hits + picture.misses)
-
-
-def goal(course: Course | None, tick: LiveTick) -> DemoGoal:
-    """Where the virtual patient's healthy hand should go, and where the exoskeleton holds the other."""
-    sought = None if course is None else _sought(course.picture, tick)
-    return DemoGoal(
-        hand_in_trunk=None if sought is None else (-sought[0], sought[1], sought[2]),
-        healthy_side=tick.healthy_side if course is None else course.opening.affected_side.other,
-        exo_rad=tick.exo.angle_rad,
-    )
-
-
-def _sought(picture: GameView | None, tick: LiveTick) -> Point | None:
-    """What the healthy hand mirrors: the game's aim, or the held arm, near which a movement may begin; None = rest."""
-    if picture is None:
-        return None
-    if tick.state is not DriveState.ENGAGED:
-        return tick.affected.points_in_trunk[-1]
-    return picture.aim
 
 
 def _listed(exercises: Sequence[Exercise]) -> tuple[ExerciseView, ...]:

@@ -83,7 +83,9 @@ class GameControls:
         Raises:
             RefusedError: the session is not open.
         """
-        return _public(self._opened(session_id))
+        course = self._opened(session_id)
+        course.ask_to_show()
+        return _public(course)
 
     async def take_workspace(self, session_id: int, client: Client) -> SessionWorkspacePublic:
         """Let the games go by what the healthy arm has shown, from now on.

@@ -24,7 +24,8 @@ from games.game import GameView
 from server.api import session_store
 from server.api.authority import Authority, Client, Presence
 from server.api.controls import check_level
-from server.api.course import Course, Opening, counted, goal
+from server.api.course import Course, Opening, counted
+from server.api.demo_goal import goal
 from server.api.figures import Figures
 from server.api.forms import SessionOpen
 from server.api.game_log import game_log_of

@@ -16,7 +16,7 @@ ROBUST_SHARES = (0.02, 0.98)
 """Ends of what was shown; the rest at both ends is noise and swing."""
 LEAST_ELEVATION_RAD = radians(15.0)
 """Of an arm that hangs lower, plane and rotation say little: a small sway turns them all the way round."""
-ENOUGH_S = 5.0
+ENOUGH_S = 10.0
 ENOUGH_RAD = {
     "plane": radians(25.0),
     "elevation": radians(25.0),

@@ -13,7 +13,8 @@ from db.workspace import SessionWorkspace
 from fusion.errors import RefusedError
 from fusion.skeleton import Side
 from games.game import Wish
-from server.api.course import Course, Opening, goal
+from server.api.course import Course, Opening
+from server.api.demo_goal import goal
 from server.api.exercises import FIRST_LEVEL
 from server.api.game_log import read_game
 from server.api.limits import session_limits
@@ -186,3 +187,13 @@ def test_the_exercises_begin_with_their_levels_and_minutes(course, begin):
     settings = [one.settings for one in read_game(course.opening.game_log).record.exercises]
     assert [one.round_s * one.rounds for one in settings] == [120.0, 60.0]
     assert [one.start_level for one in settings] == [0.3, FIRST_LEVEL]
+
+
+def test_the_virtual_patient_shows_how_far_it_can_go_while_somebody_looks(course, tick):
+    course.step(tick(11.0, DriveState.READY))
+    course.ask_to_show()
+    shown = {goal(course, tick(11.0 + k / 2, DriveState.READY)).hand_in_trunk for k in range(30)}
+    assert len(shown) > 5
+    assert None not in shown
+    course.step(tick(15.0, DriveState.READY))
+    assert goal(course, tick(15.0, DriveState.READY)).hand_in_trunk is None
