@@ -33,6 +33,9 @@ class MeasurePublic(BaseModel):
     source: str
     filter: str
     trust: Trust
+    """With two depth cameras or more, where it comes from them."""
+    trust_of_one: Trust | None
+    """With one depth camera alone; null = the same, since it does not come from cameras."""
     trust_key: str
     """Of the sentence that says why, in the browser's strings."""
     better: Better

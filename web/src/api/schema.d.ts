@@ -1682,6 +1682,7 @@ export interface components {
             trust: components["schemas"]["Trust"];
             /** Trust Key */
             trust_key: string;
+            trust_of_one: components["schemas"]["Trust"] | null;
             /** Unit */
             unit: string;
         };
