@@ -7,8 +7,8 @@ import { ProblemBox } from "../problem";
 import { hrefOf } from "../route";
 import { History } from "./history";
 import { LimitsCard } from "./limits-card";
+import { PlanCard } from "./plan-card";
 import { PatientTabs } from "./tabs";
-import { Trend } from "./trend";
 
 export function PatientPage({ id }: { id: number }) {
   const patient = useAsked(() => readPatient(id), id);
@@ -21,16 +21,14 @@ export function PatientPage({ id }: { id: number }) {
       {patient.value && !patient.value.limits_set_by && (
         <LimitsCard patient={patient.value} onConfirmed={patient.again} />
       )}
+      <PlanCard id={id} />
       {sessions.value && (
         <section class="card">
           <h2>{t("history.title")}</h2>
           {sessions.value.length === 0 ? (
             <p class="soft">{t("history.none")}</p>
           ) : (
-            <>
-              <Trend sessions={sessions.value} />
-              <History sessions={sessions.value} />
-            </>
+            <History sessions={sessions.value} />
           )}
         </section>
       )}

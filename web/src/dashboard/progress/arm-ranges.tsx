@@ -107,7 +107,7 @@ export function rangeText(range: Range): string {
   });
 }
 
-function sectorsOf({ first, last, best }: Ranges): Sector[] {
+export function sectorsOf({ first, last, best }: Ranges): Sector[] {
   const sector = ({ lowest, highest }: Range, look: Sector["look"]): Sector => ({
     minDeg: degrees(lowest),
     maxDeg: degrees(highest),

@@ -1,5 +1,5 @@
 // The figures of a session as people read them: named, grouped, in everyday units.
-import type { Metric, SessionDetail } from "../../api/types";
+import type { Metric } from "../../api/types";
 import { isKey, t } from "../../strings";
 import { degrees, figure } from "../format";
 
@@ -74,7 +74,7 @@ interface Unit {
 }
 
 const IN_PERCENT = new Set(["success_rate", "own_work_share", "help", "help_allowed", "game_success", "game_level"]);
-const PERCENT: Unit = { times: 100, digits: () => 0, sign: " %" };
+const PERCENT: Unit = { times: 100, digits: (shown) => (Math.abs(shown) < 10 && shown % 1 !== 0 ? 1 : 0), sign: " %" };
 
 const UNITS: Record<string, Unit> = {
   rad: { times: degrees(1), digits: () => 0, sign: "°" },
@@ -104,11 +104,4 @@ export function unitOf({ name, unit }: Pick<Metric, "name" | "unit">): Unit {
 /** What tells one figure from another across sessions. */
 export function identityOf({ name, joint, side }: Pick<Metric, "name" | "joint" | "side">): string {
   return `${name}/${joint}/${side}`;
-}
-
-/** One figure over several sessions, oldest first; sessions without it are left out. */
-export function seriesOf(sessions: readonly SessionDetail[], identity: string): Metric[] {
-  return [...sessions]
-    .sort((a, b) => Date.parse(a.started_at ?? "") - Date.parse(b.started_at ?? ""))
-    .flatMap((session) => session.metrics.filter((one) => identityOf(one) === identity && one.value !== null));
 }

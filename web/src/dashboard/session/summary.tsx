@@ -5,10 +5,10 @@ import { isKey, t } from "../../strings";
 import { dateAndTime, duration, figure, secondsBetween } from "../format";
 import { useAsked } from "../hooks";
 import { ProblemBox } from "../problem";
-import { hrefOf } from "../route";
 import { SessionCurves } from "./curves";
 import { EventList } from "./events";
 import { Figures } from "./figures";
+import { SessionLinks } from "./links";
 
 export function SummaryPage({ id }: { id: number }) {
   const session = useAsked(() => readSession(id), id);
@@ -46,9 +46,7 @@ function Head({ session }: { session: SessionDetail }) {
     <>
       <div class="heading">
         <h1>{t("summary.title", { name: session.patient_name })}</h1>
-        <a class="button" href={hrefOf({ page: "patient", id: session.patient_id })} data-testid="back-to-patient">
-          {t("summary.back")}
-        </a>
+        <SessionLinks session={session} />
       </div>
       {session.status !== "ended" && <p class="notice">{t(`summary.status.${session.status}`)}</p>}
       <dl class="facts card">

@@ -64,6 +64,7 @@ export const patient = {
   "history.when": "Date",
   "history.duration": "Duration",
   "history.pain": "Pain before → after",
-  "history.trend": "The figure chosen, session by session (1 = the first)",
+  "history.all": "Show all {count}",
+  "history.links": "Look at it",
   "history.look": "Look",
 } as const;

@@ -1,6 +1,10 @@
 // A patient's plan, and how much of it was done.
 export const plan = {
   "plan.none": "There is no plan yet. Until there is one, a session is six minutes of one game.",
+  "plan.make": "Make a plan",
+  "plan.look": "Look at the plan",
+  "plan.in-short": "{minutes} minutes, {perWeek} × a week, {weeks} weeks",
+  "plan.this-week": "This week: {done} of {planned} sessions done",
   "plan.session": "A session",
   "plan.session.empty": "A session needs at least one game.",
   "plan.minutes": "Minutes",

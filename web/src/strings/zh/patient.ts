@@ -64,6 +64,7 @@ export const patient: Record<keyof typeof english, string> = {
   "history.when": "日期",
   "history.duration": "时长",
   "history.pain": "疼痛 前 → 后",
-  "history.trend": "所选指标逐次变化（1 = 第一次）",
+  "history.all": "显示全部 {count} 次",
+  "history.links": "查看",
   "history.look": "查看",
 };

@@ -3,6 +3,10 @@ import type { plan as english } from "../en/plan";
 
 export const plan: Record<keyof typeof english, string> = {
   "plan.none": "还没有计划。在制定计划之前，每次治疗为一个游戏，六分钟。",
+  "plan.make": "制定计划",
+  "plan.look": "查看计划",
+  "plan.in-short": "{minutes} 分钟，每周 {perWeek} 次，共 {weeks} 周",
+  "plan.this-week": "本周：已完成 {done} / {planned} 次",
   "plan.session": "一次治疗",
   "plan.session.empty": "一次治疗至少需要一个游戏。",
   "plan.minutes": "分钟",

@@ -1,0 +1,37 @@
+// 报告：供患者病历存档的一页。
+import type { report as english } from "../en/report";
+
+export const report: Record<keyof typeof english, string> = {
+  "report.open": "报告",
+  "report.print": "打印或存为 PDF",
+  "report.hint": "如需存为 PDF，请在浏览器的打印对话框中选择“另存为 PDF”。",
+  "report.to-session": "返回治疗",
+  "report.session.title": "治疗报告",
+  "report.course.title": "疗程报告",
+  "report.games": "游戏内容",
+  "report.games.none": "没有进行游戏。",
+  "report.game": "游戏",
+  "report.minutes": "分钟",
+  "report.attempts": "尝试次数",
+  "report.succeeded": "成功率",
+  "report.level": "达到的水平",
+  "report.figures": "主要指标",
+  "report.figures.course": "主要指标（首次至最近）",
+  "report.this-session": "本次",
+  "report.first-session": "首次",
+  "report.pain-calls": "报告疼痛",
+  "report.soft-holds": "柔性保持",
+  "report.help": "开始时的辅助方式",
+  "report.range.driven": "部分治疗中患侧由外骨骼带动：此时的范围属于驱动，而非患者。",
+  "report.values": "得分（日期，评定者）",
+  "report.notes": "备注",
+  "report.sessions": "治疗次数",
+  "report.minutes-played": "游戏分钟数",
+  "report.kept": "完成 / 计划次数",
+  "report.no-plan": "无计划",
+  "report.pain-first": "疼痛（首次）",
+  "report.pain-last": "疼痛（最近）",
+  "report.not":
+    "各项指标来自深度相机和外骨骼传感器，未经临床量表验证。“偶然变化可达”指测量本身可能产生的变化（95 %）。本页仅供临床人员参考，不能代替其判断，也不能代替检查。",
+  "report.printed": "生成于 {when}",
+};
