@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -33,9 +34,11 @@ def run(setup: Setup) -> Outcome:
     two, one = told_of(recordings, together=True), told_of(recordings, together=False)
     setup.progress(0.4)
     slow = told_of(_slow_patients(setup), together=True)
+    of_two, of_one = words(two, together=True), words(one, together=False)
     return Outcome(
-        words_beside(two, one),
+        (_beside("two cameras", of_two), _beside("one camera", of_one)),
         (
+            _words_table(of_two, of_one),
             _table("two", "True motions before two cameras", two),
             _table("one", "The same, each camera alone", one),
             _table("slow", "Slow virtual patients before two cameras", slow),
@@ -51,9 +54,23 @@ def told_of(recordings: Iterable[Recording], *, together: bool) -> tuple[Agreeme
     return agreements([pair for each in recordings for pair in sessions_of(each, together=together)])
 
 
-def words_beside(two: Sequence[Agreement], one: Sequence[Agreement]) -> tuple[Beside, ...]:
-    """The catalogue's words beside those that follow, with two cameras and with one."""
-    return (*_beside("two cameras", two, False), *_beside("one camera", one, True))
+@dataclass(frozen=True, slots=True)
+class Word:
+    """What the catalogue says of a measure beside what follows from the figures."""
+
+    name: str
+    said: Trust
+    due: Trust
+
+
+def words(told: Sequence[Agreement], *, together: bool) -> tuple[Word, ...]:
+    """Of every measure that both speak of."""
+    dues = {name: due for name in COMPARED if (due := due_trust(name, told)) is not None}
+    return tuple(Word(name, _said(MEASURES[name], together), due) for name, due in dues.items())
+
+
+def _said(measure: Measure, together: bool) -> Trust:
+    return measure.trust if together or measure.trust_of_one is None else measure.trust_of_one
 
 
 def sessions_of(recording: Recording, *, together: bool) -> Iterator[tuple[Figures, Figures]]:
@@ -86,18 +103,17 @@ def _slow_patients(setup: Setup) -> Iterator[Recording]:
         yield virtual_recording(setup.seed + k, setup.long(SLOW_S), ability=ability)
 
 
-def _beside(how: str, told: Sequence[Agreement], alone: bool) -> tuple[Beside, ...]:
-    rows = []
-    for name in COMPARED:
-        due = due_trust(name, told)
-        if due is not None:
-            said = _said(MEASURES[name], alone)
-            rows.append(Beside(f"{name}, {how}: trust", f"the catalogue says {said}", due.value, due is said))
-    return tuple(rows)
+def _beside(how: str, found: Sequence[Word]) -> Beside:
+    follow = sum(word.said is word.due for word in found)
+    what = f"words of trust in the catalogue that follow from the figures, {how}"
+    return Beside(what, f"all {len(found)}", str(follow), follow == len(found))
 
 
-def _said(measure: Measure, alone: bool) -> Trust:
-    return measure.trust_of_one or measure.trust if alone else measure.trust
+def _words_table(two: Sequence[Word], one: Sequence[Word]) -> Table:
+    alone = {word.name: word.due.value for word in one}
+    rows = tuple((word.name, word.due.value, alone.get(word.name, "–")) for word in two)
+    headings = (Column("figure"), Column("two cameras"), Column("one camera"))
+    return Table("words", "The words of trust that follow", headings, rows)
 
 
 def _table(name: str, caption: str, told: Sequence[Agreement]) -> Table:

@@ -9,9 +9,9 @@ from fusion.experiments.shelf import Shelf
 
 
 @pytest.mark.recordings
-def test_every_word_of_trust_follows_from_the_recordings(recordings) -> None:
+@pytest.mark.parametrize("together", [True, False], ids=["two cameras", "one camera"])
+def test_every_word_of_trust_follows_from_the_recordings(recordings, together) -> None:
     known = Shelf(recordings).recordings(measures_trust.TRUTHS)
-    two, one = (measures_trust.told_of(known, together=together) for together in (True, False))
-    words = measures_trust.words_beside(two, one)
-    assert {row.what.split(",")[0] for row in words} == set(measures_trust.COMPARED)
-    assert [row.what for row in words if not row.met] == []
+    words = measures_trust.words(measures_trust.told_of(known, together=together), together=together)
+    assert {word.name for word in words} == set(measures_trust.COMPARED)
+    assert [word for word in words if word.said is not word.due] == []
