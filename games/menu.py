@@ -19,6 +19,11 @@ SHARE_OF_GAP: Final = 0.4
 CLEAR_OF_AIM_M: Final = 0.2
 """The pause is not offered where the game itself wants the hand to be."""
 NO_CHOICE_DRAWN: Final = 200
+EYES_UP_M, EYES_BACK_M = 0.38, 0.16
+"""Where the patient's picture is seen from, over and behind the shoulders' middle (docs/patient-screen.md)."""
+SEEN_DOWN, SEEN_ASIDE = 1.3, 0.65
+"""A spot is offered no steeper below the eyes and no further aside, per metre ahead of them: it must be in the picture,
+and clear of the patient's own stop at its rim."""
 SEED: Final = 0
 """The spots depend on the workspace alone."""
 
@@ -32,7 +37,8 @@ class Menu:
 
     def __init__(self, workspace: Workspace) -> None:
         middle = hand_at(workspace, middle_pose(workspace))
-        drawn = [reach.position for reach in reachable(workspace, NO_CHOICE_DRAWN, np.random.default_rng(SEED))]
+        places = [reach.position for reach in reachable(workspace, NO_CHOICE_DRAWN, np.random.default_rng(SEED))]
+        drawn = [place for place in places if _is_seen(place)] or places
         left, right = min(drawn, key=lambda place: place[0]), max(drawn, key=lambda place: place[0])
         low = min(drawn, key=lambda place: place[1])
         self._spots: Mapping[Wish, Point] = {
@@ -83,3 +89,10 @@ class Menu:
 
     def _is_clear(self, aim: Point | None) -> bool:
         return aim is None or distance_m(aim, self._spots[Wish.PAUSE]) > CLEAR_OF_AIM_M
+
+
+def _is_seen(place: Point) -> bool:
+    """Whether the place is well inside the patient's picture."""
+    x, y, z = place
+    ahead_m, down_m = EYES_BACK_M - z, EYES_UP_M - y
+    return down_m <= SEEN_DOWN * ahead_m and abs(x) <= SEEN_ASIDE * float(np.hypot(ahead_m, down_m))
