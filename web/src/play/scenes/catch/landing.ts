@@ -1,4 +1,4 @@
-// The place where a butterfly comes down: petals of light that open until it is there, and a ring that closes.
+// The place where a butterfly comes down: a blossom of light that opens until it is there, and a ring that closes.
 import {
   Color,
   DoubleSide,
@@ -14,7 +14,7 @@ import type { ThingView } from "../../changes";
 import { DwellRing, gapTo } from "../../dwell-ring";
 import type { Moment } from "../../scene";
 
-const PETALS = 8;
+const PETALS = 5;
 /** The ring is this much wider than the zone when the place is announced, in metres of `DwellRing`'s gap. */
 const OPENS_M = 0.5;
 
@@ -28,7 +28,7 @@ export class Landing {
 
   constructor(private view: ThingView) {
     this.share = view.progress;
-    this.light = new MeshBasicMaterial({ color: new Color("#ffffff"), side: DoubleSide, transparent: true });
+    this.light = new MeshBasicMaterial({ color: new Color("#ffe3ee"), side: DoubleSide, transparent: true });
     this.light.depthTest = false;
     this.petals = new InstancedMesh(petal(), this.light, PETALS);
     this.petals.renderOrder = 7;
@@ -52,7 +52,7 @@ export class Landing {
     this.facing.quaternion.copy(camera.quaternion);
     const pulse = still || this.view.state !== "here" ? 0 : 0.08 * Math.sin(now_s * 7);
     this.open(0.35 + 0.65 * this.share + pulse);
-    this.light.opacity = inside ? 0.85 : 0.45;
+    this.light.opacity = inside ? 0.4 : 0.62;
   }
 
   private open(share: number): void {
@@ -64,11 +64,13 @@ export class Landing {
   }
 }
 
-/** A narrow petal from the middle to the rim. */
+/** A cherry petal from the middle to the rim, notched at its end. */
 function petal(): ShapeGeometry {
   const shape = new Shape();
-  shape.moveTo(0, 0.42);
-  shape.bezierCurveTo(0.2, 0.6, 0.16, 0.85, 0, 0.95);
-  shape.bezierCurveTo(-0.16, 0.85, -0.2, 0.6, 0, 0.42);
-  return new ShapeGeometry(shape, 5);
+  shape.moveTo(0, 0.14);
+  shape.bezierCurveTo(0.3, 0.3, 0.52, 0.62, 0.2, 0.96);
+  shape.lineTo(0, 0.84);
+  shape.lineTo(-0.2, 0.96);
+  shape.bezierCurveTo(-0.52, 0.62, -0.3, 0.3, 0, 0.14);
+  return new ShapeGeometry(shape, 6);
 }

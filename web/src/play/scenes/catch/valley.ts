@@ -35,7 +35,7 @@ const MOUNTAINS = [
   { distance: 72, height: 9.5, waves: 0.07, color: "#cbd6e8" },
 ] as const;
 const BLOSSOM = ["#f4b6c8", "#eb9db6", "#fbd5de", "#f7c4d0"] as const;
-const TREES = 58;
+const TREES = 84;
 const TRUNK = new Color("#7c5a52");
 const RAIL = new Color("#d9d2c4");
 
@@ -86,12 +86,12 @@ function meadow(): Mesh {
 function trees(): BufferGeometry[] {
   return Array.from({ length: TREES }, (_, i) => {
     const far = (0.03 + i * 0.414) % 1;
-    const away = 3.4 + 24 * far * far;
-    const x = (((i * 0.618) % 1) * 2 - 1) * (2.2 + away * 0.95);
+    const away = 4.2 + 24 * far * far;
+    const x = (((i * 0.618) % 1) * 2 - 1) * (2.4 + away * 0.95);
     return tree(
       x,
       -away,
-      0.75 + 0.3 * ((i * 0.73) % 1),
+      0.62 + 0.26 * ((i * 0.73) % 1),
       new Color(BLOSSOM[i % BLOSSOM.length]),
       Math.min(1, away / 34),
     );
@@ -111,11 +111,21 @@ function tree(x: number, z: number, size_m: number, color: Color, pale: number):
   return [
     shade(stem.toNonIndexed(), TRUNK.clone().lerp(HORIZON, 0.6 * pale)),
     ...balls.map(([dx, up, radius]) => {
-      const ball = new IcosahedronGeometry(radius * size_m, 1);
+      const ball = new IcosahedronGeometry(radius * size_m, pale < 0.35 ? 3 : 1);
       ball.translate(x + dx * size_m, VALLEY_Y + up * size_m, z + dx * 0.4 * size_m);
-      return shade(ball, tint);
+      return dappled(shade(ball, tint));
     }),
   ];
+}
+
+/** Blossom is not smooth: every face a little lighter or darker. */
+function dappled(geometry: BufferGeometry): BufferGeometry {
+  const colors = geometry.getAttribute("color");
+  for (let i = 0; i < colors.count; i++) {
+    const light = 1 + 0.07 * Math.sin(Math.floor(i / 3) * 12.9898);
+    colors.setXYZ(i, colors.getX(i) * light, colors.getY(i) * light, colors.getZ(i) * light);
+  }
+  return geometry;
 }
 
 /** A low stone rail at the far edge, so that the terrace has an end. */
@@ -134,7 +144,7 @@ function rail(): BufferGeometry[] {
 function stones(): Mesh {
   const depth_m = NEAR_Z - FAR_Z;
   const top = new MeshBasicMaterial({ map: slabs((2 * HALF_WIDTH_M) / SLAB_M, depth_m / SLAB_M) });
-  const side = new MeshBasicMaterial({ color: new Color("#8d8a86") });
+  const side = new MeshBasicMaterial({ color: new Color("#857b6e") });
   const mesh = new Mesh(new BoxGeometry(2 * HALF_WIDTH_M, 0.06, depth_m), [side, side, top, side, side, side]);
   mesh.position.set(0, TABLE_Y - 0.03, (NEAR_Z + FAR_Z) / 2);
   return mesh;
@@ -156,12 +166,12 @@ function slabs(across: number, deep: number): CanvasTexture {
 }
 
 function pave(brush: CanvasRenderingContext2D, across: number, deep: number): void {
-  brush.fillStyle = "#6f7480";
+  brush.fillStyle = "#8d8375";
   brush.fillRect(0, 0, 1024, 512);
   for (let i = 0; i < across; i++)
     for (let k = 0; k < deep; k++) {
-      const light = 59 + 3 * Math.sin(i * 2.7 + k * 4.1) + (((i + k) % 2) * 2 - 1);
-      brush.fillStyle = `hsl(216 12% ${light}%)`;
+      const light = 66 + 3 * Math.sin(i * 2.7 + k * 4.1) + (((i + k) % 2) * 2 - 1);
+      brush.fillStyle = `hsl(38 20% ${light}%)`;
       brush.fillRect((i * 1024) / across + 2, (k * 512) / deep + 2, 1024 / across - 4, 512 / deep - 4);
     }
 }

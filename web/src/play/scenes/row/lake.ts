@@ -1,5 +1,5 @@
 // The lake far out: steep hills in the morning mist and their reflections. Scenery only, so far away that it does not
-// move as the boat goes.
+// move as the boat goes; and the boat itself, which stays before the eyes.
 import {
   AdditiveBlending,
   BackSide,
@@ -16,9 +16,9 @@ import {
 } from "three";
 import { paint } from "../../paint";
 import { glowTexture } from "../../textures";
+import { hull } from "./hull";
+import { WATER_Y } from "./water";
 
-/** Below the boat's deck, which lies at `TABLE_Y`. */
-export const WATER_Y = -0.74;
 const SKY_M = 95;
 const ZENITH = new Color("#7fc4dc");
 const HORIZON = new Color("#fff1d2");
@@ -40,7 +40,7 @@ export function lake(): Scene {
   RANGES.forEach((range, i) => {
     scene.add(reflection(range, i), hills(range, i));
   });
-  scene.add(mist(), sunPath());
+  scene.add(mist(), sunPath(), hull());
   return scene;
 }
 

@@ -13,20 +13,20 @@ import {
   Vector3,
 } from "three";
 import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
-import { WATER_Y } from "./lake";
+import { WATER_Y } from "./water";
 
-const COUNT = 22;
-const EVERY_M = 1.1;
+const COUNT = 16;
+const EVERY_M = 1.25;
 /** The nearest is this far behind the eyes when it is taken away. */
 const BEHIND_M = 1.2;
 const NEAREST_M = 2.2;
-const FARTHEST_M = 9;
+const FARTHEST_M = 8;
 const OPENS_S = 0.9;
 const SIZE_M = 0.26;
 const PETALS = [
-  { count: 9, lean: 1.15, length: 1, color: "#f48fb4" },
-  { count: 7, lean: 0.75, length: 0.9, color: "#fbb9d0" },
-  { count: 5, lean: 0.35, length: 0.75, color: "#ffe6ef" },
+  { count: 8, lean: 1.15, length: 1, color: "#f48fb4" },
+  { count: 6, lean: 0.75, length: 0.9, color: "#fbb9d0" },
+  { count: 4, lean: 0.35, length: 0.75, color: "#ffe6ef" },
 ] as const;
 
 export class Lotus {
@@ -105,7 +105,7 @@ function flower(): BufferGeometry {
 }
 
 function petal(turn_rad: number, lean_rad: number, length: number, color: Color): BufferGeometry {
-  const geometry = new PlaneGeometry(0.5, length, 2, 3);
+  const geometry = new PlaneGeometry(0.5, length, 2, 2);
   const positions = geometry.getAttribute("position");
   for (let i = 0; i < positions.count; i++) {
     const up = positions.getY(i) / length + 0.5;

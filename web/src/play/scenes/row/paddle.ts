@@ -1,13 +1,13 @@
 // A paddle in one hand: lifted over the water on the way ahead, dipped into it while it pulls.
 import { Color, CylinderGeometry, Group, Mesh, MeshLambertMaterial, SphereGeometry, Vector3 } from "three";
-import { WATER_Y } from "./lake";
+import { WATER_Y } from "./water";
 
 const ABOVE_HAND_M = 0.16;
 const SHAFT_RADIUS_M = 0.012;
 const BLADE_M = { across: 0.075, along: 0.19, through: 0.018 } as const;
 const WOOD = new Color("#e8c48c");
 const BLADE = new Color("#d8452e");
-const DIPPED = { outward: 0.48, below_water: 0.1, ahead: 0.02 } as const;
+const DIPPED = { outward: 0.6, below_water: 0.08, ahead: 0.14 } as const;
 const LIFTED = { outward: 0.6, below_water: -0.16, ahead: 0.14 } as const;
 const DIPPING_PER_S = 7;
 const UP = new Vector3(0, 1, 0);

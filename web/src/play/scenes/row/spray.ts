@@ -12,7 +12,7 @@ import {
   type Vector3,
 } from "three";
 import { glowTexture } from "../../textures";
-import { WATER_Y } from "./lake";
+import { WATER_Y } from "./water";
 
 const DROPS = 40;
 const DROP_LIFE_S = 0.6;

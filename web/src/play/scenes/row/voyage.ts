@@ -6,7 +6,7 @@ import { Guide } from "../../guide";
 import type { Side } from "../../hand-shape";
 import type { GameScene, Moment } from "../../scene";
 import { tone } from "../../sound";
-import { Boat } from "./boat";
+import { Bow } from "./bow";
 import { Ends } from "./ends";
 import { LevelBar } from "./level-bar";
 import { Lotus } from "./lotus";
@@ -17,12 +17,16 @@ import { Spray } from "./spray";
 const FOLLOWING_PER_S = 8;
 /** Farther than this in one picture is another game, not a glide. */
 const JUMP_M = 3;
+/** So much of a turn is seen: the hills are painted and stay. */
+const TURN_SHARE = 0.4;
 
 export class Voyage implements GameScene {
   readonly group = new Group();
   readonly bothArms = true;
   readonly tones = { even: [tone(0.2, 1174.66, 1.2), tone(0.3, 1046.5, 1.4)] };
-  private readonly boat = new Boat();
+  /** What floats about the boat. */
+  private readonly water = new Group();
+  private readonly bow = new Bow();
   private readonly ends = new Ends();
   private readonly bar = new LevelBar();
   /** The healthy hand's way, like the one that the stage draws for the shown hand. */
@@ -34,6 +38,8 @@ export class Voyage implements GameScene {
   private things: readonly ThingView[] = [];
   private aim: Vector3 | null = null;
   private gone_m = 0;
+  private turn_rad = 0;
+  private speed = 0;
 
   constructor(
     side: Side,
@@ -41,8 +47,14 @@ export class Voyage implements GameScene {
   ) {
     const outward = side === "right" ? 1 : -1;
     this.paddles = { shown: new Paddle(outward), healthy: new Paddle(outward === 1 ? -1 : 1) };
-    const parts = [this.ripples, this.lotus, this.boat, this.spray, this.bar, this.guide, this.ends];
-    this.group.add(...parts.map((part) => part.group), this.paddles.shown.group, this.paddles.healthy.group);
+    this.water.add(this.ripples.group, this.lotus.group);
+    const parts = [this.bow, this.spray, this.bar, this.guide, this.ends];
+    this.group.add(
+      this.water,
+      ...parts.map((part) => part.group),
+      this.paddles.shown.group,
+      this.paddles.healthy.group,
+    );
   }
 
   show(view: GameView, changes: Changes): readonly Vector3[] {
@@ -56,7 +68,7 @@ export class Voyage implements GameScene {
     const boat = this.things.find((thing) => thing.kind === "boat");
     const before_m = this.gone_m;
     this.glide(boat, dt_s);
-    this.boat.animate(moment, boat?.turn_rad ?? 0, boat?.progress ?? 0);
+    this.bow.animate(moment, this.turn_rad, this.speed);
     this.ripples.animate(this.gone_m);
     this.lotus.animate(dt_s, this.gone_m, still);
     this.ends.animate(moment, this.things);
@@ -73,8 +85,13 @@ export class Voyage implements GameScene {
   /** Follows the boat smoothly between the pictures of the stream. */
   private glide(boat: ThingView | undefined, dt_s: number): void {
     if (!boat) return;
+    const following = Math.min(1, FOLLOWING_PER_S * dt_s);
     const off_m = -boat.position[2] - this.gone_m;
-    this.gone_m += Math.abs(off_m) > JUMP_M ? off_m : off_m * Math.min(1, FOLLOWING_PER_S * dt_s);
+    this.gone_m += Math.abs(off_m) > JUMP_M ? off_m : off_m * following;
+    this.turn_rad += (boat.turn_rad - this.turn_rad) * following;
+    this.speed += (boat.progress - this.speed) * following;
+    // The patient sits in the boat: as it turns to the left, all about it turns to the right.
+    this.water.rotation.y = -TURN_SHARE * this.turn_rad;
   }
 
   private row({ dt_s, hand, healthyHand, still }: Moment, state: string): void {

@@ -1,28 +1,23 @@
-// The boat ahead of the patient: a planked deck, on which shadows fall, and a prow that shows where it heads.
+// The boat in which the patient sits: a planked deck, on which shadows fall, and a prow. It stands still before the
+// eyes (the water passes), so it belongs to the scenery.
 import {
   BufferAttribute,
   BufferGeometry,
   CatmullRomCurve3,
   Color,
   DoubleSide,
-  Group,
-  LatheGeometry,
   Mesh,
   MeshBasicMaterial,
-  PlaneGeometry,
   TubeGeometry,
-  Vector2,
   Vector3,
 } from "three";
 import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
 import { shade } from "../../paint";
-import type { Moment } from "../../scene";
 import { TABLE_Y } from "../../table";
-import { glowTexture } from "../../textures";
-import { WATER_Y } from "./lake";
+import { WATER_Y } from "./water";
 
 const STERN_Z = 0.35;
-const BOW_Z = -2.25;
+export const BOW_Z = -2.25;
 const HALF_WIDTH_M = 0.43;
 const PLANK_M = 0.1;
 const SEAM_M = 0.008;
@@ -31,33 +26,14 @@ const RIM_WIDTH_M = 0.035;
 const PLANKS = ["#a9764a", "#9c6b42"].map((color) => new Color(color));
 const RIM = new Color("#6f3d22");
 const SIDE = new Color("#5a2f1b");
-const TURNING_PER_S = 6;
 
-export class Boat {
-  readonly group = new Group();
-  private readonly lantern = paperLantern();
-  private readonly wave = bowWave();
-  private turn_rad = 0;
-  private speed = 0;
-
-  constructor() {
-    const wood = new MeshBasicMaterial({ vertexColors: true, side: DoubleSide });
-    this.group.add(new Mesh(mergeGeometries([...deck(), ...sides(), prow()]), wood), this.lantern, this.wave);
-  }
-
-  /** Heads to `turn_rad` (left is positive) at a share of its greatest speed. */
-  animate({ dt_s, now_s, still }: Moment, turn_rad: number, speed: number): void {
-    const following = Math.min(1, TURNING_PER_S * dt_s);
-    this.turn_rad += (turn_rad - this.turn_rad) * following;
-    this.speed += (speed - this.speed) * following;
-    this.group.rotation.y = this.turn_rad;
-    this.lantern.rotation.z = still ? 0 : 0.12 * Math.sin(now_s * 1.7) - 0.5 * this.turn_rad;
-    this.wave.material.opacity = 0.65 * this.speed;
-  }
+export function hull(): Mesh {
+  const wood = new MeshBasicMaterial({ vertexColors: true, side: DoubleSide });
+  return new Mesh(mergeGeometries([...deck(), ...sides(), prow()]), wood);
 }
 
 /** Half the deck's width at a distance ahead: full to the middle, then drawn together in a curve. */
-function halfWidthAt(z: number): number {
+export function halfWidthAt(z: number): number {
   const share = Math.min(1, Math.max(0, (-0.5 - z) / (-0.5 - BOW_Z)));
   return HALF_WIDTH_M * Math.sqrt(1 - share ** 2.2);
 }
@@ -117,33 +93,4 @@ function prow(): BufferGeometry {
   const geometry = shade(new TubeGeometry(curve, 14, 0.04, 8).toNonIndexed(), RIM);
   geometry.deleteAttribute("normal");
   return geometry;
-}
-
-/** A red lantern at the prow's tip: it swings with the turn. */
-function paperLantern(): Group {
-  const outline = [
-    [0.03, -0.09],
-    [0.075, -0.06],
-    [0.09, 0],
-    [0.075, 0.06],
-    [0.03, 0.09],
-  ].map(([radius = 0, height = 0]) => new Vector2(radius, height - 0.12));
-  const paper = shade(new LatheGeometry(outline, 14), new Color("#ef4a2f"));
-  const group = new Group();
-  group.add(new Mesh(paper, new MeshBasicMaterial({ vertexColors: true, side: DoubleSide })));
-  group.position.set(0, TABLE_Y + 0.45, BOW_Z - 0.13);
-  return group;
-}
-
-/** White water on both sides of the prow. */
-function bowWave(): Mesh<BufferGeometry, MeshBasicMaterial> {
-  const wings = [-1, 1].map((side) => {
-    const wing = new PlaneGeometry(0.22, 2.3);
-    wing.rotateX(-Math.PI / 2);
-    wing.rotateY(side * 0.42);
-    wing.translate(side * 0.5, WATER_Y + 0.012, BOW_Z + 0.95);
-    return wing;
-  });
-  const material = new MeshBasicMaterial({ map: glowTexture(), transparent: true, opacity: 0, depthWrite: false });
-  return new Mesh(mergeGeometries(wings), material);
 }
