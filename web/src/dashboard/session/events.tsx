@@ -1,6 +1,6 @@
 // What happened in a session, in order.
 import type { SessionEvent } from "../../api/types";
-import { t } from "../../strings";
+import { isKey, t } from "../../strings";
 import { clockTime, figure, sentence } from "../format";
 import { translatedOr } from "./metrics";
 
@@ -31,12 +31,18 @@ function kindOf(event: SessionEvent): string {
   return translatedOr(`event.${event.kind}`, event.kind);
 }
 
-/** Buttons and targets are told by a word that has its own text; all else is a sentence. */
+/** Buttons, wishes and attempts are told by words that have their own text; all else is a sentence. */
 function textOf({ kind, text, data }: SessionEvent): string {
   if (kind === "control") return translatedOr(`control.${text}`, text);
+  if (kind === "game") return translatedOr(`event.game.${text}`, text);
   if (kind === "assistance") return helpOf(data?.mode, data?.level);
-  const [word = ""] = text.split(",", 1);
-  return translatedOr(`event.${kind}.${word}`, sentence(text));
+  return kind === "score" ? attemptOf(text) : sentence(text);
+}
+
+/** A game has words of its own besides; whether it succeeded is what matters here. */
+function attemptOf(words: string): string {
+  const [known] = words.split(", ").filter((word) => isKey(`event.score.${word}`));
+  return known ? translatedOr(`event.score.${known}`, known) : "";
 }
 
 function helpOf(mode: unknown, level: unknown): string {

@@ -19,6 +19,11 @@ export function SessionLinks({ session }: { session: SessionDetail }) {
       <a class="button" href={hrefOf({ page: "patient", id: session.patient_id })} data-testid="back-to-patient">
         {t("summary.back")}
       </a>
+      {session.status !== "open" && (
+        <a class="button primary" href={hrefOf({ page: "prepare", id: session.patient_id })} data-testid="next-session">
+          {t("summary.next")}
+        </a>
+      )}
     </div>
   );
 }

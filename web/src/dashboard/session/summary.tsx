@@ -1,14 +1,17 @@
 // What a session has shown: figures with what they mean, curves, and what happened.
 import { readCurves, readEvents, readSession } from "../../api/client";
 import type { SessionDetail } from "../../api/types";
-import { isKey, t } from "../../strings";
+import { t } from "../../strings";
 import { dateAndTime, duration, figure, secondsBetween } from "../format";
+import { gameName } from "../game-name";
 import { useAsked } from "../hooks";
 import { ProblemBox } from "../problem";
+import { Afterwards } from "./afterwards";
 import { SessionCurves } from "./curves";
 import { EventList } from "./events";
 import { Figures } from "./figures";
 import { SessionLinks } from "./links";
+import { PlayedGames } from "./played";
 
 export function SummaryPage({ id }: { id: number }) {
   const session = useAsked(() => readSession(id), id);
@@ -18,6 +21,12 @@ export function SummaryPage({ id }: { id: number }) {
     <main class="page" data-testid="summary">
       <ProblemBox problem={session.problem} onRetry={session.again} />
       {session.value && <Head session={session.value} />}
+      {session.value && (
+        <div class="columns">
+          <PlayedGames played={session.value.played} />
+          <Afterwards key={session.value.id} session={session.value} />
+        </div>
+      )}
       {session.value && (
         <Figures
           metrics={session.value.metrics}
@@ -59,9 +68,4 @@ function Head({ session }: { session: SessionDetail }) {
       </dl>
     </>
   );
-}
-
-function gameName(name: string): string {
-  const key = `game.${name}`;
-  return isKey(key) ? t(key) : name;
 }
