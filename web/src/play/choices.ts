@@ -13,6 +13,16 @@ const QUIET_BEYOND_M = 0.12;
 const QUIET = 0.6;
 const SIGN_SHARE = 0.86;
 
+/** On which side of its sign a word stands. */
+type Beside = "left" | "beneath" | "right";
+const DIRECTIONS: Readonly<Record<Beside, Vector3>> = {
+  left: new Vector3(-1, 0, 0),
+  beneath: new Vector3(0, -1, 0),
+  right: new Vector3(1, 0, 0),
+};
+/** From the sign's middle, in radii: clear of the ring that fills. */
+const WORD_OFF = 1.5;
+
 /** Where a point of the trunk frame is on the page, in pixels. */
 export type OnPage = (point: Vector3) => { readonly x: number; readonly y: number };
 
@@ -50,13 +60,18 @@ class Choice {
     this.sign.material.opacity = quiet ? QUIET : 1;
   }
 
-  /** Puts the word just beneath the sign. */
-  write(phase: string, onPage: OnPage, camera: Camera): void {
-    const down = new Vector3(0, -1, 0).applyQuaternion(camera.quaternion);
-    const beneath = onPage(this.place.clone().addScaledVector(down, this.view.radius_m * 1.45));
+  get x_m(): number {
+    return this.place.x;
+  }
+
+  /** Puts the word beside the sign on that side of it. */
+  write(phase: string, beside: Beside, onPage: OnPage, camera: Camera): void {
+    const off = DIRECTIONS[beside].clone().applyQuaternion(camera.quaternion);
+    const at = onPage(this.place.clone().addScaledVector(off, this.view.radius_m * WORD_OFF));
     setText(this.label, t(wordOf(this.view.id, phase)));
-    place(this.label, "left", beneath.x);
-    place(this.label, "top", beneath.y);
+    this.label.dataset.beside = beside;
+    place(this.label, "left", at.x);
+    place(this.label, "top", at.y);
   }
 
   remove(): void {
@@ -90,9 +105,10 @@ export class Choices {
   }
 
   animate(moment: Moment): void {
-    for (const choice of this.shown.values()) {
+    const fromLeft = [...this.shown.values()].sort((a, b) => a.x_m - b.x_m);
+    for (const [i, choice] of fromLeft.entries()) {
       choice.animate(moment, this.phase);
-      choice.write(this.phase, this.onPage, moment.camera);
+      choice.write(this.phase, besideOf(i, fromLeft.length), this.onPage, moment.camera);
     }
   }
 
@@ -111,6 +127,13 @@ function place(label: HTMLElement, edge: "left" | "top", at_px: number): void {
   const text = `${at_px.toFixed(0)}px`;
   const name = `--${edge}`;
   if (label.style.getPropertyValue(name) !== text) label.style.setProperty(name, text);
+}
+
+/** The outer ones' words stand outside, so that words do not cover one another where a hand's reach is small. */
+export function besideOf(index: number, count: number): Beside {
+  if (count === 1) return "beneath";
+  if (index === 0) return "left";
+  return index === count - 1 ? "right" : "beneath";
 }
 
 /** A choice that has moved is another one: spots change with the workspace only. */

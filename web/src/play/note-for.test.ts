@@ -48,5 +48,6 @@ describe("Notes", () => {
   it("says on any face that a second screen has been opened, and nothing else beside words", () => {
     expect(told({ screens: 2 }).at(1, "welcome")?.kind).toBe("screens");
     expect(told({}, { mode: "free" }).at(1, "rest")).toBeNull();
+    expect(told({ screens: 0 }, { screens: 1 }).at(1, "waiting")).toBeNull();
   });
 });

@@ -52,7 +52,8 @@ function news(before: LiveMessage | null, { tick, game, session }: LiveMessage):
   const mode = tick.exo.assistance;
   const modeBefore = before?.tick.exo.assistance;
   if (mode && modeBefore && mode !== modeBefore) notes.push({ kind: "help", mode });
-  if ((session?.patient_screens ?? 0) > (before?.session?.patient_screens ?? 1)) notes.push({ kind: "screens" });
+  if ((session?.patient_screens ?? 0) > Math.max(1, before?.session?.patient_screens ?? 1))
+    notes.push({ kind: "screens" });
   if (game?.rest_suggested && before?.game && !before.game.rest_suggested) notes.push({ kind: "tired" });
   if (game && before?.game && game.exercise > before.game.exercise) notes.push({ kind: "game", game: game.game });
   return notes;
