@@ -16,12 +16,12 @@ from fusion.errors import MirrorlimbError
 from fusion.skeleton import Side
 from games.game import Trial
 from server.api import session_store
-from server.api.attempts import as_attempts, attempts_again
+from server.api.attempts import as_attempts
 from server.api.forms import Curves
 from server.api.game_log import game_log_of
 from server.api.journal import Journal
 from server.api.measure import measure, read_curves
-from server.api.tally import tally_again
+from server.api.tally import play_again
 
 log = logging.getLogger(__name__)
 
@@ -65,16 +65,24 @@ class Figures:
 
     def _measure_now(self, session_id: int, trials: Sequence[Trial] | None) -> None:
         found = session_store.existing_session(self._database, session_id)
-        if not found.played:
-            self._play_again(found)
-        counts = session_store.counts(self._database, session_id)
-        recording = self._data / found.recording
-        attempts = attempts_again(recording) if trials is None else as_attempts(trials)
-        metrics = measure(recording, Side(found.affected_side).other, replace(counts, attempts=attempts))
+        attempts = as_attempts(self._trials_again(found) if trials is None else trials)
+        counts = replace(session_store.counts(self._database, session_id), attempts=attempts)
+        metrics = measure(self._data / found.recording, Side(found.affected_side).other, counts)
         session_store.store_metrics(self._database, session_id, metrics)
 
-    def _play_again(self, found: TherapySession) -> None:
-        """Where the program was killed in mid-game, what was played is in the games' file only."""
-        log_file = game_log_of(self._data / found.recording)
-        if log_file.is_file():
-            session_store.store_played(self._database, found.id or 0, tally_again(log_file))
+    def _trials_again(self, found: TherapySession) -> tuple[Trial, ...]:
+        """Every attempt of a session whose end nobody saw; what was played of it is stored on the way.
+
+        A file that cannot be played again costs these figures alone: the others come from the recording.
+        """
+        games = game_log_of(self._data / found.recording)
+        if not games.is_file():
+            return ()
+        try:
+            again = play_again(games)
+        except MirrorlimbError as error:
+            log.warning("no figures of the games of session %d: %s", found.id, error)
+            return ()
+        if not found.played:
+            session_store.store_played(self._database, found.id or 0, again.exercises)
+        return again.trials

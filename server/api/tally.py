@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 
 from db.exercise import PlayedExercise
-from games.game import LONGEST_STEP_S, GameView, Phase
+from games.game import LONGEST_STEP_S, GameView, Phase, Trial
 from games.replay import opened
 from server.api.game_log import read_game
 
@@ -30,8 +31,16 @@ class Tally:
         return tuple(_counted(self._newest[number], duration_s) for number, duration_s in sorted(self._times_s.items()))
 
 
-def tally_again(path: Path) -> tuple[PlayedExercise, ...]:
-    """What was played, from the file of a session's games.
+@dataclass(frozen=True, slots=True)
+class PlayedAgain:
+    """What a file of games came to."""
+
+    exercises: tuple[PlayedExercise, ...]
+    trials: tuple[Trial, ...]
+
+
+def play_again(path: Path) -> PlayedAgain:
+    """What was played, from the file of a session's games. Takes a while: run it in a worker thread.
 
     Raises:
         RecordingError: the file cannot be read, or is none of ours.
@@ -41,7 +50,7 @@ def tally_again(path: Path) -> tuple[PlayedExercise, ...]:
     games = opened(log.record)
     for logged in log.inputs():
         tally.take(games.step(logged.given), logged.dt_s)
-    return tally.played
+    return PlayedAgain(tally.played, games.trials)
 
 
 def _counted(view: GameView, duration_s: float) -> PlayedExercise:

@@ -10,7 +10,7 @@ import typer
 from db.exercise import PlayedExercise
 from server import __version__
 from server.api.game_log import game_log_of, read_game
-from server.api.tally import tally_again
+from server.api.tally import play_again
 
 RECORDING = ".mcap"
 
@@ -21,7 +21,7 @@ def score(
     """Print what every exercise of a session came to, worked out anew from its inputs."""
     file = game_log_of(session) if session.suffix == RECORDING else session
     written_by = read_game(file).version
-    played = tally_again(file)
+    played = play_again(file).exercises
     for number, exercise in enumerate(played, 1):
         typer.echo(_line(number, exercise))
     typer.echo(f"{file}: {sum(one.score for one in played)} points in {len(played)} exercises.")

@@ -7,7 +7,7 @@ import httpx
 import pytest
 
 from server.api.game_log import game_log_of, played
-from server.api.tally import tally_again
+from server.api.tally import play_again
 
 PAGE = {"Mirrorlimb-Client": "dashboard"}
 EXERCISES = [{"game": "reach", "minutes": 2, "level": 0.0, "pinned": True}]
@@ -58,7 +58,7 @@ def test_a_service_killed_in_mid_game_loses_nothing_of_what_was_played(start_ser
         first.process.kill()
         first.process.wait(timeout=20)
     file = game_log_of(first.data / "recordings" / f"session-{session:06d}.mcap")
-    (kept,) = tally_again(file)
+    (kept,) = play_again(file).exercises
     assert kept.hits >= 1
     assert played(file).outcomes[0].score == kept.score > 0
 

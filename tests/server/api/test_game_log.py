@@ -14,7 +14,7 @@ from games.programme import Exercise
 from games.replay import GameRecord, opened
 from server.api.game_log import played, read_game
 from server.api.game_log_writer import GameLogWriter
-from server.api.tally import Tally, tally_again
+from server.api.tally import Tally, play_again
 
 WORKSPACE = Workspace(Side.LEFT, (-0.2, 0.0, 0.0), 0.3, 0.3, (0.1, 1.5), (0.3, 1.3), (-0.5, 0.5), (0.3, 1.8))
 SETTINGS = GameSettings(rounds=2, round_s=15.0, rest_s=3.0)
@@ -66,7 +66,7 @@ def test_the_score_and_every_attempt_replay_exactly(game):
     assert again.outcomes == games.outcomes
     assert again.trials == games.trials
     assert len(again.trials) > 3
-    assert tally_again(path) == tally
+    assert (play_again(path).exercises, play_again(path).trials) == (tally, games.trials)
     assert [one.game for one in tally] == ["reach", "reach"]
     assert tally[0].score > 0
     assert 0 < tally[0].played_s <= 2 * (SETTINGS.round_s + GRACE_S)

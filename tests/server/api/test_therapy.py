@@ -4,6 +4,7 @@ import os
 import signal
 import sqlite3
 import time
+from pathlib import Path
 
 import pytest
 
@@ -302,16 +303,36 @@ def test_a_station_that_does_not_answer_is_reported(alone, person, enrol, monkey
     assert end(person, session).json()["status"] == "ended"
 
 
-def test_a_session_that_a_crash_left_open_is_measured_at_the_next_start(tmp_path, serving, logged_in, enrol):
+@pytest.fixture
+def left_open(tmp_path, serving, logged_in, enrol, look):
+    """A session in mid-game whose service was ended."""
     with serving(tmp_path) as first, logged_in(first) as person:
+        page = look(person)
         session = opened(person, enrol(person)).json()
         control(person, session, "start")
+        until(lambda: page.post(f"/api/sessions/{session['id']}/game", wish="start").is_success)
         time.sleep(0.5)
+        page.close()
+    return session
+
+
+def spoil(games):
+    games.write_bytes(b"no games")
+
+
+@pytest.mark.parametrize("spoilt", [None, spoil, Path.unlink], ids=["whole", "spoilt games", "no games"])
+def test_a_session_that_a_crash_left_open_is_measured_at_the_next_start(
+    tmp_path, serving, logged_in, left_open, spoilt
+):
+    session = left_open
+    if spoilt is not None:
+        spoilt(tmp_path / "recordings" / f"session-{session['id']:06d}.game")
     with serving(tmp_path) as second, logged_in(second) as person:
         recovered = until(lambda: (found := person.get(f"/api/sessions/{session['id']}").json())["measured"] and found)
         assert recovered["status"] == "interrupted"
         assert recovered["ended_at"] > recovered["started_at"]
         assert recovered["metrics"]
+        assert [one["game"] for one in recovered["played"]] == (["reach"] if spoilt is None else [])
         assert person.get("/api/sessions/current").json() is None
 
 
