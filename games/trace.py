@@ -26,11 +26,11 @@ from games.rules import Ended, PlayInput, SceneView
 from games.workspace import distance_m
 
 NAME: Final = "trace"
-EASY_LENGTH_M, HARD_LENGTH_M = 0.25, 0.70
+EASY_LENGTH_M, HARD_LENGTH_M = 0.35, 0.75
 EASY_RADIUS_M, HARD_RADIUS_M = 0.09, 0.03
 EASY_WINDING, HARD_WINDING = 1.05, 2.2
 EASY_CORNERS, HARD_CORNERS = 3, 5
-EASY_TIME_S, HARD_TIME_S = 12.0, 3.0
+EASY_TIME_S, HARD_TIME_S = 14.0, 3.0
 """From the light's being taken up."""
 EASY_PATIENCE_S, HARD_PATIENCE_S = 9.0, 5.0
 """How long a light waits to be taken up."""
