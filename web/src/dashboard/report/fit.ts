@@ -1,8 +1,11 @@
 // Keeps a sheet on one page of A4: where there is much to say, it is printed smaller.
 import { useEffect, useRef } from "preact/hooks";
 
-/** A4 without the margins that `report.css` sets, at 96 dots an inch, and a little less so that rounding never breaks it. */
-export const PAGE_HEIGHT_PX = Math.floor(((297 - 2 * 12) / 25.4) * 96) - 6;
+/** Around the sheet on every side, as in `report.css`. */
+const MARGIN_MM = 12;
+const PAGE_WIDTH_MM = 210 - 2 * MARGIN_MM;
+/** A4 inside its margins at 96 dots an inch, and a little less, so that rounding never breaks it. */
+export const PAGE_HEIGHT_PX = Math.floor(((297 - 2 * MARGIN_MM) / 25.4) * 96) - 6;
 
 /** How much smaller a sheet of that height is printed. */
 export function scaleFor(height_px: number): number {
@@ -17,7 +20,7 @@ export function useFit() {
     if (!element) return;
     const observer = new ResizeObserver(() => {
       // In print the sheet is smaller already: measuring it then would make it small twice.
-      if (!matchMedia("print").matches) element.style.setProperty("--fit", String(scaleFor(contentHeight(element))));
+      if (!matchMedia("print").matches) element.style.setProperty("--fit", String(scaleFor(heightOnPaper(element))));
     });
     observer.observe(element);
     return () => observer.disconnect();
@@ -25,8 +28,11 @@ export function useFit() {
   return sheet;
 }
 
-/** Without the margin that the sheet has on the screen; on paper the page brings its own. */
-function contentHeight(sheet: HTMLElement): number {
-  const { paddingTop, paddingBottom } = getComputedStyle(sheet);
-  return sheet.scrollHeight - Number.parseFloat(paddingTop) - Number.parseFloat(paddingBottom);
+/** As wide as paper and without the margin that it has on the screen, however wide the screen is. */
+function heightOnPaper(sheet: HTMLElement): number {
+  const { width, padding } = sheet.style;
+  Object.assign(sheet.style, { width: `${PAGE_WIDTH_MM}mm`, padding: "0" });
+  const height = sheet.scrollHeight;
+  Object.assign(sheet.style, { width, padding });
+  return height;
 }
