@@ -20,6 +20,7 @@ from server.api.demo import Demo
 from server.api.figures import Figures
 from server.api.forms import Station
 from server.api.game_controls import GameControls
+from server.api.game_room import GameRoom
 from server.api.journal import Journal
 from server.api.latency import LatencyMeter
 from server.api.limits import snapshots
@@ -75,7 +76,7 @@ async def running_service(
         presence = Presence(link.beat)
         authority = Authority(presence)
         figures = Figures(data, database, journal)
-        therapy = Therapy(config, data, database, link, journal, figures, authority, presence)
+        therapy = Therapy(config, data, database, link, journal, figures, authority, GameRoom(journal, presence))
         link.in_charge = therapy.in_charge
         controls = Controls(therapy.opened, link, journal, authority)
         game_controls = GameControls(therapy.opened, database, journal, authority, presence)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import logging
 import secrets
 import time
 from contextlib import suppress
@@ -22,13 +21,14 @@ from fusion.errors import RefusedError
 from fusion.skeleton import Side
 from games.game import GameView
 from server.api import session_store
-from server.api.authority import Authority, Client, Presence
+from server.api.authority import Authority, Client
 from server.api.controls import check_level
-from server.api.course import Course, Opening, counted
+from server.api.course import Course, Opening
 from server.api.demo_goal import goal
 from server.api.figures import Figures
 from server.api.forms import SessionOpen
 from server.api.game_log import game_log_of
+from server.api.game_room import GameRoom
 from server.api.journal import Journal
 from server.api.limits import session_limits
 from server.api.live import SessionView
@@ -45,8 +45,6 @@ from server.messages import (
     SessionClosed,
 )
 
-log = logging.getLogger(__name__)
-
 CLOSED_WITHIN_S = 15.0
 """Ramp to rest, last flush of the recording; then we go on without waiting."""
 
@@ -62,7 +60,7 @@ class Therapy:
         journal: where events go.
         figures: worked out at the end.
         authority: given to whoever opens a session.
-        presence: which pages show the games to the patient.
+        room: plays the games.
     """
 
     def __init__(
@@ -74,14 +72,12 @@ class Therapy:
         journal: Journal,
         figures: Figures,
         authority: Authority,
-        presence: Presence,
+        room: GameRoom,
     ) -> None:
-        self._config, self._data, self._figures, self._authority = config, data, figures, authority
-        self._presence = presence
+        self._config, self._data, self._figures, self._authority, self._room = config, data, figures, authority, room
         self._database, self._link, self._journal = database, link, journal
         self._was_in_charge = ""
         self._course: Course | None = None
-        self._opening_games: asyncio.Task[None] | None = None
         self._turn = asyncio.Lock()
         self._closed = asyncio.Event()
         link.on_event.append(self._take_event)
@@ -96,23 +92,10 @@ class Therapy:
         """Take a tick: step the game, steer the demonstration's patient."""
         course = self._course
         if course is not None:
-            self._look_for_screens(course)
-            before, after = course.picture, course.step(tick)
-            if after is not None and counted(after) != counted(before):
-                self._journal.note_score(course.opening.id, after)
-            if course.lacks_games:
-                course.games_asked = True
-                self._opening_games = asyncio.create_task(self._open_games(course, tick), name="games")
+            self._room.step(course, tick)
         if self._config.demo:
             self._link.steer_demonstration(goal(course, tick))
         return None if course is None else course.picture
-
-    def _look_for_screens(self, course: Course) -> None:
-        before, now = course.screens.count, self._presence.patient_screens
-        if course.see_screens(now):
-            self._journal.note(course.opening.id, "screen", "the patient's screen has gone; the game waits", screens=0)
-        elif now != before:
-            self._journal.note(course.opening.id, "screen", f"{now} of the patient's screens are there", screens=now)
 
     def view(self) -> SessionView | None:
         """The open session in a line."""
@@ -252,32 +235,14 @@ class Therapy:
         status = SessionStatus.INTERRUPTED if course.interrupted else SessionStatus.ENDED
         ended_at: datetime = now_utc()
         session_id = course.opening.id
-        await self._close_game_log(course)
+        await self._room.close(course)
         await run_in_threadpool(session_store.store_played, self._database, session_id, course.played)
         await run_in_threadpool(session_store.finish, self._database, session_id, status, ended_at, pain_after)
-
-    async def _open_games(self, course: Course, tick: LiveTick) -> None:
-        """What the games ask for is drawn in a thread: a heart that beats late would hold the arm (SR-9)."""
-        try:
-            course.playing = await run_in_threadpool(course.open_games, tick)
-        except Exception as error:  # whatever it is, the session must still be ended and measured
-            log.exception("the games of session %d could not be opened", course.opening.id)
-            self._journal.note(course.opening.id, "no games", str(error))
-
-    async def _close_game_log(self, course: Course) -> None:
-        if self._opening_games is not None:
-            await self._opening_games
-            self._opening_games = None
-        if course.playing is None:
-            return
-        await run_in_threadpool(course.playing.log.close)
-        if course.playing.log.trouble:
-            self._journal.note(course.opening.id, "not logged", course.playing.log.trouble)
 
     async def close(self) -> None:
         """The service ends: whatever was played so far is written down."""
         if self._course is not None:
-            await self._close_game_log(self._course)
+            await self._room.close(self._course)
 
     def opened(self, session_id: int) -> Course:
         """The open session.
