@@ -266,3 +266,19 @@ def test_notes_are_kept_during_a_session_and_afterwards(opened, therapist):
     assert therapist.patch("/api/sessions/99999", json={"notes": "x"}).status_code == 404
     assert therapist.patch(page.path, json={"pain_after": 11}).status_code == 422
     assert "notes" not in page.session
+
+
+def test_a_dashboard_that_is_lost_in_mid_game_holds_arm_and_game_and_both_go_on_where_they_were(
+    in_play, therapist, look
+):
+    other = look(therapist, "second")
+    in_play.pull()
+    until(lambda: other.messages and other.messages[-1]["tick"]["state"] == "hold")
+    held = view(other)
+    time.sleep(0.3)
+    assert view(other) | {"hand": None} == held | {"hand": None}
+    back = look(therapist, "dashboard")
+    until(lambda: therapist.get("/api/sessions/current/authority").json()["connected"])
+    until(lambda: back.post(f"{in_play.path}/control", action="resume").is_success)
+    until(lambda: view(other)["time_left_s"] < held["time_left_s"])
+    assert (view(other)["phase"], view(other)["exercise"]) == ("playing", 1)
