@@ -20,7 +20,7 @@ TILT_RAD: Final = 0.65
 """The upper edge leans away: the pane faces the eyes, and reaching up it the arm stretches ahead."""
 DRAWN: Final = 240
 """Places drawn to see where the reachable space is."""
-INNER: Final = (5.0, 95.0)
+INNER: Final = (2.0, 98.0)
 """Percentiles between which the pane spans it."""
 
 

@@ -6,10 +6,10 @@ Patches begin in the middle of the pane and go outwards, and every further pictu
 
 Things: "pane": its middle, half the side of a cell (`radius_m`), its lean (`turn_rad`, upper edge away from the eyes),
 the share that is clear (`progress`), and each cell (`state`): rows from the top joined by "/", a cell being "0" (mist)
-to "9" (clear), or "." where no mist ever is; another picture is another id. "cell": one of the patch, its progress how
-clear it is. "wiper": the point of the pane under the hand, its radius what is wiped, its state "on" or, where the hand
-is too far from the pane, "off"; its progress how near the hand is. "timer": its progress is the share of the time that
-is gone. Feedback: "wiped", and "picture" when all is clear.
+to "9" (clear), or "." where it is not to be wiped; another picture is another id. "cell": one of the patch, its
+progress how clear it is. "wiper": the point of the pane under the hand, its radius what is wiped, its state "on" or,
+where the hand is too far from the pane, "off"; its progress how near the hand is. "timer": its progress is the share of
+the time that is gone. Feedback: "wiped", and "picture" when all is clear.
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
 // A bright kitchen in the morning: a window over the worktop, cupboards, tiles, and the table. Scenery only.
 import { Color, Mesh, MeshBasicMaterial, PlaneGeometry, Scene } from "three";
 import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
+import { ball, box, disc, turned } from "../../furniture";
 import { table } from "../../table";
 import { painted } from "../../textures";
-import { ball, box, disc, turned } from "./furniture";
 import { morning } from "./morning";
 
 const FLOOR_Y = -1.2;

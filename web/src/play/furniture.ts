@@ -8,7 +8,7 @@ import {
   LatheGeometry,
   Vector2,
 } from "three";
-import { shade } from "../../paint";
+import { shade } from "./paint";
 
 /** A box by its middle and its sides. */
 export function box(x: number, y: number, z: number, width: number, height: number, depth: number, color: string) {
