@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import msgspec
@@ -60,14 +60,21 @@ _decoder = msgspec.msgpack.Decoder(_Tick)
 
 
 @dataclass(frozen=True, slots=True)
+class SensorFrames:
+    """One sensor over the session."""
+
+    sensor: str
+    joints: Array  # (T, 25, 3)
+    place: Array  # (T, 3)
+
+
+@dataclass(frozen=True, slots=True)
 class Frames:
     """A session as it is drawn; positions in the room, metres, NaN where something is missing."""
 
     t_s: NDArray[np.float64]  # (T,) since the first one
     state: tuple[DriveState, ...]  # (T,)
-    sensors: tuple[str, ...]
-    sensor_joints: Array  # (T, S, 25, 3)
-    sensor_places: Array  # (T, S, 3)
+    sensors: tuple[SensorFrames, ...]
     body: Array  # (T, 25, 3)
     mirrored: Array  # (T, 4, 3)
     exo: Array  # (T, 4, 3)
@@ -85,9 +92,8 @@ class Frames:
             mixed = (1.0 - share) * values[before] + share * values[after]
             return np.asarray(mixed, np.float32)
 
-        joints, places = between(self.sensor_joints), between(self.sensor_places)
         return Picture(
-            sensors=tuple(SensorPicture(name, joints[k], places[k]) for k, name in enumerate(self.sensors)),
+            sensors=tuple(SensorPicture(one.sensor, between(one.joints), between(one.place)) for one in self.sensors),
             body=between(self.body),
             mirrored=between(self.mirrored),
             exo=between(self.exo),
@@ -114,21 +120,24 @@ def read_frames(recording: Path, wanted: Callable[[], bool]) -> Frames:
         RecordingError: it cannot be read, or holds no tick.
         RefusedError: it was no longer wanted.
     """
-    ticks: list[_Tick] = []
+    film = _Film()
     for entry in _thinned(LogReader(recording).ticks()):
-        if len(ticks) % ASKED_EVERY == 0 and not wanted():
+        if len(film.t_s) % ASKED_EVERY == 0 and not wanted():
             raise RefusedError("the recording was put away", "no session open", "try again when it has ended")
-        ticks.append(_decoded(recording, entry))
-    if not ticks:
+        film.take(_decoded(recording, entry))
+    if not film.t_s:
         raise RecordingError(f"{recording} holds no tick", "a session that lasted a moment", "there is nothing to see")
-    return _stacked(ticks)
+    return film.frames()
 
 
 def _thinned(entries: Iterator[LogEntry]) -> Iterator[LogEntry]:
-    due_s = -np.inf
+    due_s: float | None = None
     for entry in entries:
-        if entry.t_s >= due_s:
-            due_s = max(due_s, entry.t_s - KEPT_EVERY_S / 2) + KEPT_EVERY_S
+        if due_s is None or entry.t_s >= due_s:
+            # On an even beat; after a hole the beat begins anew.
+            due_s = (
+                entry.t_s + KEPT_EVERY_S if due_s is None else max(due_s, entry.t_s - KEPT_EVERY_S / 2) + KEPT_EVERY_S
+            )
             yield entry
 
 
@@ -139,29 +148,58 @@ def _decoded(recording: Path, entry: LogEntry) -> _Tick:
         raise RecordingError(f"{recording}: a tick cannot be read ({error})", "ticks of this version") from None
 
 
-def _stacked(ticks: Sequence[_Tick]) -> Frames:
-    names = tuple(sorted({sensor.sensor for tick in ticks for sensor in tick.sensors}))
-    seen = [_by_name(tick, names) for tick in ticks]
-    return Frames(
-        t_s=np.array([tick.t_s for tick in ticks]) - ticks[0].t_s,
-        state=tuple(tick.state for tick in ticks),
-        sensors=names,
-        sensor_joints=np.stack([joints for joints, _ in seen]),
-        sensor_places=np.stack([places for _, places in seen]),
-        body=np.stack([NOWHERE if tick.body is None else as_array(tick.body.joints_in_room) for tick in ticks]),
-        mirrored=np.stack([_points(tick.target) for tick in ticks]),
-        exo=np.stack([_points(tick.affected) for tick in ticks]),
-    )
+@dataclass(slots=True)
+class _Film:
+    """Frames while they are read, as plain bytes: the ticks as objects would take ten times the memory."""
+
+    t_s: list[float] = field(default_factory=list)
+    state: list[DriveState] = field(default_factory=list)
+    body: bytearray = field(default_factory=bytearray)
+    mirrored: bytearray = field(default_factory=bytearray)
+    exo: bytearray = field(default_factory=bytearray)
+    joints: dict[str, bytearray] = field(default_factory=dict)
+    place: dict[str, bytearray] = field(default_factory=dict)
+
+    def take(self, tick: _Tick) -> None:
+        """One further picture."""
+        seen = {sensor.sensor: sensor for sensor in tick.sensors}
+        for name in seen.keys() - self.joints.keys():  # it was not there until now
+            self.joints[name] = bytearray(NOWHERE.tobytes() * len(self.t_s))
+            self.place[name] = bytearray(NO_PLACE.tobytes() * len(self.t_s))
+        for name in self.joints:
+            joints, place = _sensor(seen.get(name))
+            self.joints[name] += joints.tobytes()
+            self.place[name] += place.tobytes()
+        self.body += (NOWHERE if tick.body is None else as_array(tick.body.joints_in_room)).tobytes()
+        self.mirrored += _points(tick.target).tobytes()
+        self.exo += _points(tick.affected).tobytes()
+        self.t_s.append(tick.t_s)
+        self.state.append(tick.state)
+
+    def frames(self) -> Frames:
+        """All pictures taken."""
+        return Frames(
+            t_s=np.array(self.t_s) - self.t_s[0],
+            state=tuple(self.state),
+            sensors=tuple(
+                SensorFrames(name, _rows(self.joints[name], NOWHERE), _rows(self.place[name], NO_PLACE))
+                for name in sorted(self.joints)
+            ),
+            body=_rows(self.body, NOWHERE),
+            mirrored=_rows(self.mirrored, NO_ARM),
+            exo=_rows(self.exo, NO_ARM),
+        )
 
 
-def _by_name(tick: _Tick, names: tuple[str, ...]) -> tuple[Array, Array]:
-    joints = np.stack([NOWHERE] * len(names)) if names else np.empty((0, *NOWHERE.shape), np.float32)
-    places = np.stack([NO_PLACE] * len(names)) if names else np.empty((0, 3), np.float32)
-    for sensor in tick.sensors:
-        k = names.index(sensor.sensor)
-        joints[k] = as_array(sensor.joints_in_room) if sensor.joints_in_room else NOWHERE
-        places[k] = NO_PLACE if sensor.position_in_room is None else sensor.position_in_room
-    return joints, places
+def _rows(values: bytearray, like: Array) -> Array:
+    return np.frombuffer(values, np.float32).reshape(-1, *like.shape)
+
+
+def _sensor(seen: _Sensor | None) -> tuple[Array, Array]:
+    if seen is None:
+        return NOWHERE, NO_PLACE
+    joints = as_array(seen.joints_in_room) if seen.joints_in_room else NOWHERE
+    return joints, NO_PLACE if seen.position_in_room is None else np.array(seen.position_in_room, np.float32)
 
 
 def _points(arm: _Arm | None) -> Array:

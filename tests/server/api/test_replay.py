@@ -3,6 +3,7 @@
 import time
 from datetime import UTC, datetime, timedelta
 
+import msgspec
 import numpy as np
 import pytest
 from hypothesis import given
@@ -10,10 +11,11 @@ from hypothesis import strategies as st
 
 from db.therapy_session import Event
 from fusion.errors import RefusedError
+from fusion.recording.log import LogAbout, LogWriter
 from server.api import replay3d
 from server.api.replay3d_clock import ReplayClock
 from server.api.replay3d_forms import StateSpan
-from server.api.replay3d_frames import LONGEST_GAP_S, Frames, read_frames
+from server.api.replay3d_frames import KEPT_EVERY_S, LONGEST_GAP_S, Frames, SensorFrames, read_frames
 from server.api.replay3d_marks import marks_of, spans_of
 from server.messages import DriveState
 
@@ -58,9 +60,7 @@ def frames(t_s, states=None, x_m=None):
     return Frames(
         t_s=np.array(t_s, float),
         state=tuple(states or [DriveState.ENGAGED] * len(t_s)),
-        sensors=("left",),
-        sensor_joints=np.repeat(place[:, None], 25, axis=2),
-        sensor_places=place.copy(),
+        sensors=(SensorFrames("left", np.repeat(place, 25, axis=1), place[:, 0]),),
         body=np.repeat(place, 25, axis=1),
         mirrored=np.repeat(place, 4, axis=1),
         exo=np.repeat(place, 4, axis=1),
@@ -84,6 +84,36 @@ def test_a_joint_that_one_picture_lacks_is_not_drawn_from_half_of_it():
     half = frames([0.0, 0.04], x_m=[0.0, np.nan])
     assert np.isnan(half.at(0.02).body[0, 0])
     assert half.at(0.0).body[0, 0] == 0.0
+
+
+def written(folder, ticks):
+    """A recording of ticks that hold what is drawn and no more."""
+    path = folder / "some.mcap"
+    with LogWriter(path, LogAbout(name="some")) as log:
+        for tick in ticks:
+            log.tick(msgspec.msgpack.encode(tick), tick["t_s"])
+    return path
+
+
+def tick_at(t_s, *sensors):
+    seen = [{"sensor": name, "position_in_room": None, "joints_in_room": [(t_s, 0.0, 0.0)] * 25} for name in sensors]
+    arm = {"valid": False, "points_in_room": None}
+    return {"t_s": t_s, "state": "ready", "sensors": seen, "body": None, "target": None, "affected": arm}
+
+
+def test_a_sensor_that_comes_later_or_goes_is_nowhere_until_then_and_after(tmp_path):
+    ticks = [tick_at(1.0, "left"), tick_at(1.1, "left", "right"), tick_at(1.2, "right")]
+    frames = read_frames(written(tmp_path, ticks), lambda: True)
+    left, right = frames.sensors
+    assert left.joints[:, 0, 0] == pytest.approx([1.0, 1.1, np.nan], nan_ok=True)
+    assert right.joints[:, 0, 0] == pytest.approx([np.nan, 1.1, 1.2], nan_ok=True)
+    assert frames.t_s == pytest.approx([0.0, 0.1, 0.2])
+    assert np.isnan(frames.at(0.1).exo).all()
+
+
+def test_a_recording_is_thinned_evenly(tmp_path):
+    frames = read_frames(written(tmp_path, [tick_at(k / 100, "left") for k in range(1000)]), lambda: True)
+    assert np.diff(frames.t_s) == pytest.approx(KEPT_EVERY_S, abs=0.011)
 
 
 READY, ENGAGED, HOLD = DriveState.READY, DriveState.ENGAGED, DriveState.HOLD
@@ -185,6 +215,15 @@ def test_a_past_session_is_shown_as_it_was(shared, therapist, treated, visers_pa
         page.look()
         page.wait_until_moved({"/fused/bones", "/exoskeleton", "/sensors/0/bones"})
     assert "<title>Viser</title>" in therapist.get("/replay3d/").text
+
+
+def test_every_sensor_has_a_place_in_every_picture(shared, treated):
+    frames = read_frames(shared.data / f"recordings/session-{treated:06d}.mcap", lambda: True)
+    assert [one.sensor for one in frames.sensors] == ["left"]
+    assert frames.sensors[0].joints.shape == frames.body.shape == (len(frames.t_s), 25, 3)
+    assert frames.sensors[0].place.shape == (len(frames.t_s), 3)
+    assert np.diff(frames.t_s).min() > KEPT_EVERY_S / 2
+    assert np.isfinite(frames.body).all()
 
 
 def test_its_time_line_says_when_the_arm_moved_was_held_and_hurt(therapist, treated):
