@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import exp, isfinite
 from typing import Final
 
 import numpy as np
@@ -13,6 +14,16 @@ from fusion.skeleton import Side, arm
 NATURAL_RISE_M: Final = 0.03
 """A shoulder that nobody hitches rises with its arm by this × (1 − cos elevation): the least-squares fit over the true
 motions of seven recordings (docs/metrics.md)."""
+
+SMOOTHED_S: Final = 0.3
+"""Time constant: a hitch lasts as long as a reach, the sensors' noise mostly shorter."""
+
+
+def smoothed_m(before_m: float, seen_m: float, dt_s: float) -> float:
+    """A height after another one was seen; NaN says nothing, on either side."""
+    if not isfinite(seen_m):
+        return before_m
+    return before_m + (1.0 - exp(-dt_s / SMOOTHED_S)) * (seen_m - before_m) if isfinite(before_m) else seen_m
 
 
 def shoulder_height_m(positions_in_room: Floats, trunk: TrunkFrame, side: Side) -> float:

@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import exp, isfinite, nan
-from typing import Final
+from math import isfinite, nan
 
-from fusion.kinematics.shoulder import shoulder_height_m
+from fusion.kinematics.shoulder import shoulder_height_m, smoothed_m
 from fusion.messages import PipelineFrame
 from fusion.skeleton import Side
-
-SMOOTHED_S: Final = 0.3
-"""Time constant: a hitch lasts as long as a reach, the sensors' noise mostly shorter."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,12 +20,7 @@ class ShoulderRise:
 
     def heard(self, frame: PipelineFrame, side: Side, dt_s: float) -> ShoulderRise:
         """After another frame; one in which the arm is not seen changes nothing."""
-        seen_m = _height_m(frame, side)
-        if not isfinite(seen_m):
-            return self
-        if not isfinite(self.height_m):
-            return replace(self, height_m=seen_m)
-        return replace(self, height_m=self.height_m + (1.0 - exp(-dt_s / SMOOTHED_S)) * (seen_m - self.height_m))
+        return replace(self, height_m=smoothed_m(self.height_m, _height_m(frame, side), dt_s))
 
     def enabled(self) -> ShoulderRise:
         """Motion was enabled: this is where the shoulder is from now on measured from."""

@@ -8,13 +8,16 @@ from typing import Final
 
 import numpy as np
 
+from fusion.errors import RecordingError
 from fusion.evaluation.scores import truth_at
 from fusion.experiments.experiment import Chapter, Experiment, Setup
 from fusion.experiments.measures.agreement import FAITY, Agreement, Figures, agreements, due_trust
 from fusion.experiments.measures.body_session import angles_rad, body_session, delayed
-from fusion.experiments.outcome import Beside, Column, Outcome, Table
+from fusion.experiments.measures.natural_rise import fitted_rise_m, rise_of
+from fusion.experiments.outcome import Beside, Column, Outcome, Table, columns
 from fusion.metrics.catalogue import MEASURES
 from fusion.metrics.measure import Measure, Trust
+from fusion.metrics.record import SessionRecord
 from fusion.metrics.session import session_metrics
 from fusion.offline import JOINING, fuse_recording
 from fusion.recording.recording import Recording
@@ -42,6 +45,7 @@ def run(setup: Setup) -> Outcome:
             _table("two", "True motions before two cameras", two),
             _table("one", "The same, each camera alone", one),
             _table("slow", "Slow virtual patients before two cameras", slow),
+            _rise_table(recordings),
         ),
         (),
         _WHY,
@@ -77,25 +81,31 @@ def sessions_of(recording: Recording, *, together: bool) -> Iterator[tuple[Figur
     """Measured and true figures of a recording: of all its sensors together, or of each alone."""
     sensors = [None] if together else [stream.sensor for stream in recording.skeleton_streams]
     for sensor in sensors:
-        yield _figures(recording, sensor)
+        told, true = _sessions(recording, sensor)
+        yield _figures(told), _figures(true)
 
 
-def _figures(recording: Recording, sensor: str | None) -> tuple[Figures, Figures]:
-    fused = fuse_recording(recording, JOINING, only_sensor=sensor)
+def _figures(session: SessionRecord) -> Figures:
+    """Without the other arm's, which no camera has a part in."""
+    other = session.healthy_side.other
+    return tuple(one for one in session_metrics(session) if one.name in COMPARED and one.side is not other)
+
+
+def _sessions(recording: Recording, sensor: str | None) -> tuple[SessionRecord, SessionRecord]:
+    """As the sensors tell it, and as it was.
+
+    Raises:
+        RecordingError: there is no truth.
+    """
     if recording.truth is None:
-        return (), ()
+        raise RecordingError(f"recording '{recording.name}' has no truth", "a stream of kind 'truth'")
+    fused = fuse_recording(recording, JOINING, only_sensor=sensor)
     side = recording.healthy_side or Side.RIGHT
     truth = truth_at(recording.truth, fused.t_s)
     known = np.isfinite(truth[:, list(arm(side)[:3])]).all(axis=(1, 2))
     t_s, true, told = fused.t_s[known], truth[known], fused.positions[known]
     affected = delayed(t_s, angles_rad(true, side))
-    measured, exact = (session_metrics(body_session(t_s, joints, affected, side)) for joints in (told, true))
-    return _compared(measured, side), _compared(exact, side)
-
-
-def _compared(figures: Figures, healthy_side: Side) -> Figures:
-    """Without the other arm's, which no camera has a part in."""
-    return tuple(one for one in figures if one.name in COMPARED and one.side is not healthy_side.other)
+    return body_session(t_s, told, affected, side), body_session(t_s, true, affected, side)
 
 
 def _slow_patients(setup: Setup) -> Iterator[Recording]:
@@ -128,6 +138,26 @@ def _table(name: str, caption: str, told: Sequence[Agreement]) -> Table:
     )
     rows = tuple((a.name, a.joint, a.unit, a.sessions, a.typical, a.bias, a.limit) for a in told)
     return Table(name, f"{caption}: measured minus true, 95 % limits of agreement about the bias", headings, rows)
+
+
+def _rise_table(recordings: Sequence[Recording]) -> Table:
+    """What raising the arm does to a shoulder that nobody hitches."""
+    sessions = [(each.name, *_sessions(each, None)) for each in recordings]
+    fitted_mm = 1e3 * fitted_rise_m([true for _, _, true in sessions])
+    rises = [rise_of(name, told, true) for name, told, true in sessions]
+    headings = ("recording", "elevation from [°]", "to [°]", "true range", "told, at most", "told as hitch, at most")
+    rows = tuple(
+        (
+            one.recording,
+            *np.degrees(one.elevation_rad).tolist(),
+            *(1e3 * m for m in (one.true_m, one.told_m, one.left_m)),
+        )
+        for one in rises
+    )
+    caption = (
+        f"The healthy shoulder's rise with its arm, nobody hitching, mm; fit over all: {fitted_mm:.1f} × (1 − cos)"
+    )
+    return Table("rise", caption, columns(*headings, digits=0), rows)
 
 
 _WHY = (

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import accumulate
 from math import nan
 from typing import Final
 
@@ -11,7 +12,7 @@ from fusion.evaluation.angle_scores import true_angles
 from fusion.evaluation.runs import SETTLE_S
 from fusion.kinematics.angles import swing_from_direction
 from fusion.kinematics.body_frame import TOP, trunk_frame
-from fusion.kinematics.shoulder import shoulder_height_m
+from fusion.kinematics.shoulder import shoulder_height_m, smoothed_m
 from fusion.messages import Floats
 from fusion.metrics.record import ENGAGED, JOINTS, SessionRecord
 from fusion.skeleton import Side, arm
@@ -35,7 +36,7 @@ def body_session(t_s: Floats, positions: Floats, affected_rad: Floats, side: Sid
     """
     rows = np.array([_row(joints, side) for joints in positions])
     first = int(np.searchsorted(t_s, t_s[0] + SETTLE_S))
-    height_m, top = rows[:, -1], positions[:, TOP]
+    height_m, top = _smoothed(t_s, rows[:, -1]), positions[:, TOP]
     return SessionRecord(
         t_s=t_s[first:],
         state=np.full(len(t_s) - first, ENGAGED),
@@ -60,6 +61,12 @@ def angles_rad(positions: Floats, side: Side) -> Floats:
 def delayed(t_s: Floats, angles: Floats) -> Floats:
     """(T, 4) what a drive without fault does with angles."""
     return np.column_stack([np.interp(t_s - DRIVE_LAG_S, t_s, column) for column in angles.T])
+
+
+def _smoothed(t_s: Floats, height_m: Floats) -> Floats:
+    steps = zip(np.diff(t_s, prepend=t_s[0]), height_m, strict=True)
+    told = accumulate(steps, lambda before, step: smoothed_m(before, step[1], step[0]), initial=nan)
+    return np.array(list(told)[1:])
 
 
 def _row(joints: Floats, side: Side) -> Row:
