@@ -17,7 +17,9 @@ LARGEST_RADIUS_M: Final = 0.09
 SHARE_OF_GAP: Final = 0.4
 """A spot takes this share of the way to the nearest other one, so that two are never chosen at once."""
 CLEAR_OF_AIM_M: Final = 0.2
-"""The pause is not offered where the game itself wants the hand to be."""
+"""The pause is not offered where the game itself wants the hand to be,"""
+CLEAR_OF_WAY_M: Final = 0.15
+"""nor beside a way on which it wants the hand to go to and fro, or it would come and go all the time."""
 NO_CHOICE_DRAWN: Final = 200
 EYES_UP_M, EYES_BACK_M = 0.38, 0.16
 """Where the patient's picture is seen from, over and behind the shoulders' middle (docs/patient-screen.md)."""
@@ -72,7 +74,7 @@ class Menu:
             case Phase.WAITING:
                 return (Wish.START,)
             case Phase.PLAYING:
-                return (Wish.PAUSE,) if self._is_clear(view.aim) else ()
+                return (Wish.PAUSE,) if self._is_clear(view) else ()
             case Phase.REST:
                 return (Wish.GO_ON,)
             case Phase.PAUSED:
@@ -87,8 +89,11 @@ class Menu:
         change = dt_s / DWELL_S * (1.0 if inside else -LEAVING)
         return min(max(self._progress.get(wish, 0.0) + change, 0.0), 1.0)
 
-    def _is_clear(self, aim: Point | None) -> bool:
-        return aim is None or distance_m(aim, self._spots[Wish.PAUSE]) > CLEAR_OF_AIM_M
+    def _is_clear(self, view: GameView) -> bool:
+        spot = self._spots[Wish.PAUSE]
+        if view.way:
+            return all(distance_m(place, spot) > CLEAR_OF_WAY_M for place in view.way)
+        return view.aim is None or distance_m(view.aim, spot) > CLEAR_OF_AIM_M
 
 
 def _is_seen(place: Point) -> bool:

@@ -59,6 +59,8 @@ class RowRules:
         self._stroke: Stroke | None = None
         self._count = 0
         self._pause_steps = 0
+        self._way: tuple[Point, ...] = ()
+        """From end to end of the newest stroke."""
         self._ahead_m: float | None = None
         """How much further on its way the shown hand is than the healthy one; None = not seen."""
 
@@ -71,8 +73,8 @@ class RowRules:
         """What is to be drawn now."""
         boat, stroke = self._boat_view(), self._stroke
         if stroke is None:
-            return SceneView(0, (boat,), None)
-        return SceneView(stroke.number, (boat, *_end_views(stroke)), stroke.aim, (stroke.catch, stroke.finish))
+            return SceneView(0, (boat,), None, self._way)
+        return SceneView(stroke.number, (boat, *_end_views(stroke)), stroke.aim, self._way)
 
     def clear(self) -> None:
         """The round is over: the boat lies still."""
@@ -99,7 +101,9 @@ class RowRules:
     def _next_stroke(self, level: float) -> Stroke:
         self._count += 1
         asked = demands(level)
-        return Stroke(self._count, *self._course.ends(asked.length), asked)
+        catch, finish = self._course.ends(asked.length)
+        self._way = (catch, finish)
+        return Stroke(self._count, catch, finish, asked)
 
     def _drive(self, before: Stroke, after: Stroke, moment: Moment) -> None:
         """Pulling drives the boat; the hand that has pulled more turns it to the other side."""

@@ -13,14 +13,14 @@ from games.game import Point, Workspace
 from games.workspace import Pose, hand_at, reachable
 
 CANDIDATES: Final = 400
-BELOW_SHOULDER_M: Final = 0.22
+BELOW_SHOULDER_M: Final = 0.1
 """Hands row about this far below the shoulder."""
-OUTWARD_M: Final = 0.22
+OUTWARD_M: Final = 0.16
 """And this far beside the body's middle: two hands side by side never meet."""
 NEAREST_M: Final = 0.24
 """A stroke ends at least this far ahead of the shoulder, where the eyes still see the hand."""
 LEAST_OUTWARD_M: Final = 0.1
-LOWEST_M: Final = 0.38
+LOWEST_M: Final = 0.3
 """A stroke stays at most this far below the shoulder: over the water, and out of the lap."""
 LONGEST_M: Final = 0.4
 SHORT, ASKEW, OUT_OF_PLACE = 2.5, 0.4, 10.0

@@ -13,9 +13,10 @@ from hypothesis import strategies as st
 from fusion.skeleton import Side
 from games.boat import FASTEST_M_S, LARGEST_TURN_RAD, Boat
 from games.even_steps import on_the_way
-from games.game import GameSettings, Point, ThingView, Workspace
+from games.game import GameInput, GameSettings, Phase, Point, ThingView, Wish, Workspace
 from games.play import Play
 from games.player import QUICK, WEAK, Player, play
+from games.programme import Exercise, Programme
 from games.row import EVEN_POINTS, POINTS, RowRules
 from games.rules import Ended, PlayInput
 from games.stroke import EASY_TIME_S, HARD_RADIUS_M, demands
@@ -225,6 +226,24 @@ def test_the_boat_only_ever_goes_ahead_and_never_too_fast(pulls: list[tuple[floa
     assert all(after.gone_m >= before.gone_m for before, after in pairwise(boats))
     assert all(0.0 <= boat.speed_m_s <= FASTEST_M_S for boat in boats)
     assert all(abs(boat.turn_rad) <= LARGEST_TURN_RAD for boat in boats)
+
+
+def test_the_way_stays_between_two_strokes_so_that_what_it_keeps_clear_of_does_not_flicker(rules: RowRules) -> None:
+    rowed(rules, mirrored)
+    assert rules.scene().aim is None
+    assert len(rules.scene().way) == 2
+
+
+@pytest.mark.parametrize("side", list(Side))
+def test_rowing_hands_never_choose_the_pause(side: Side, workspace_of: Callable[[Side], Workspace]) -> None:
+    for seed in range(4):
+        # A hand that stays for two seconds at each end, as a slow one does.
+        game = Programme((Exercise("row", GameSettings(rounds=1, round_s=60.0)),), workspace_of(side), seed)
+        view = game.step(GameInput(DT_S, FAR, active=True, wish=Wish.START))
+        for k in range(400):
+            hand = view.way[k // 40 % 2] if view.way else FAR
+            view = game.step(GameInput(DT_S, hand, active=True, healthy_hand=mirrored(hand)))
+        assert view.phase is Phase.PLAYING
 
 
 def success(player: Player, level: float, workspace: Workspace) -> float:
