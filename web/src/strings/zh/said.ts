@@ -1,5 +1,7 @@
 // What the station and the service say in words of their own, in Chinese; the first that fits is taken.
 
+import { CHINESE_OF_GAMES } from "./said-games";
+
 /** A sentence (without its full stop, any case at its head) and the Chinese for it; `{1}` is its first blank. */
 export const CHINESE: readonly [RegExp, string][] = [
   [/^no session is open$/, "没有进行中的治疗"],
@@ -152,4 +154,5 @@ export const CHINESE: readonly [RegExp, string][] = [
   [/^there is no score (\d+)$/, "没有编号为 {1} 的评分"],
   [/^the number of an existing (?:session|patient|score)$/, "已有记录的编号"],
   [/^look at the list$/, "请查看列表"],
+  ...CHINESE_OF_GAMES,
 ];
