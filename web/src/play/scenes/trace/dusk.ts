@@ -86,6 +86,7 @@ export class Dusk implements GameScene {
   }
 
   close(): void {
+    this.fleet.close();
     dispose(this.group);
     dispose(this.scenery);
   }

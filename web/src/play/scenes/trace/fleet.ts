@@ -18,7 +18,7 @@ import type { Moment } from "../../scene";
 import { glowTexture } from "../../textures";
 import { WATER_Y } from "./lake";
 
-const MOST = 48;
+export const MOST = 48;
 const GLIDE_S = 1.8;
 const NEAREST_M = 2.6;
 const FARTHEST_M = 11;
@@ -77,6 +77,12 @@ export class Fleet {
     this.count(this.floats.length);
   }
 
+  /** Lets go of what disposing of shapes and paints leaves. */
+  close(): void {
+    this.bodies.dispose();
+    this.reflections.dispose();
+  }
+
   private put(i: number, place: Vector3, facing: Quaternion): void {
     this.bodies.setMatrixAt(i, new Matrix4().setPosition(place));
     const mirrored = new Vector3(place.x, 2 * WATER_Y - place.y - SIZE_M, place.z);
@@ -94,8 +100,8 @@ export class Fleet {
   }
 }
 
-/** Where the lanterns come to rest, the first ones near. */
-function berth(i: number): Vector3 {
+/** Where lantern number `i` (from 0) comes to rest on the water. */
+export function berth(i: number): Vector3 {
   const far = (0.15 + i * SPREAD_Z) % 1;
   const depth_m = NEAREST_M + (FARTHEST_M - NEAREST_M) * far * far;
   const across = ((0.5 + i * SPREAD_X) % 1) * 2 - 1;

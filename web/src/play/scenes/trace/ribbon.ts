@@ -2,12 +2,12 @@
 // hand may stray, and its shadow on the planks. Thread and arrows show faintly through an arm before them.
 import {
   BackSide,
+  type BufferGeometry,
   CatmullRomCurve3,
   Color,
   ConeGeometry,
   GreaterDepth,
   Group,
-  InstancedMesh,
   Matrix4,
   Mesh,
   MeshBasicMaterial,
@@ -15,6 +15,7 @@ import {
   TubeGeometry,
   Vector3,
 } from "three";
+import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
 import { TABLE_Y } from "../../table";
 
 const THREAD_M = 0.0045;
@@ -28,7 +29,9 @@ const ARROW_M = 0.011;
 const FADE_S = 0.7;
 const APPEAR_S = 0.5;
 const LIFT_M = 0.0035;
-const AHEAD = new Vector3(0, 1, 0);
+const PALE = "#fffdf0";
+/** Where a cone points. */
+const UPWARDS = new Vector3(0, 1, 0);
 
 export class Ribbon {
   readonly group = new Group();
@@ -43,21 +46,15 @@ export class Ribbon {
     const length_m = curve.getLength();
     this.pieces = Math.max(8, Math.round(length_m / PIECE_M));
     const tube = (thickness_m: number, around = AROUND) => new TubeGeometry(curve, this.pieces, thickness_m, around);
-    const veil = new Mesh(tube(radius_m, VEIL_AROUND), this.paint("#ffe9b0", 0.15));
-    veil.material.side = BackSide;
-    veil.material.depthWrite = false;
-    veil.renderOrder = -1;
-    const thread = new Mesh(tube(THREAD_M), this.paint("#fffdf0", 1));
-    const through = new Mesh(thread.geometry, this.paint("#fffdf0", 0.4));
-    through.material.depthFunc = GreaterDepth;
-    through.material.depthWrite = false;
-    this.done = new Mesh(tube(DONE_M), this.paint("#ffc93c", 1));
-    const shadow = new Mesh(tube(SHADOW_M), this.paint("#050a12", 0.5));
-    shadow.material.depthWrite = false;
+    const thread = tube(THREAD_M);
+    this.done = this.mesh(tube(DONE_M), "#ffc93c", 1);
+    this.mesh(thread, PALE, 1);
+    this.mesh(arrowHeads(curve, length_m), PALE, 1);
+    seeThrough(this.mesh(thread, PALE, 0.4), 0).material.depthFunc = GreaterDepth;
+    seeThrough(this.mesh(tube(radius_m, VEIL_AROUND), "#ffe9b0", 0.15), -1).material.side = BackSide;
+    const shadow = seeThrough(this.mesh(tube(SHADOW_M), "#050a12", 0.5), -2);
     shadow.scale.y = 1e-4;
     shadow.position.y = TABLE_Y + LIFT_M;
-    shadow.renderOrder = -2;
-    this.group.add(veil, thread, through, this.done, shadow, this.arrows(curve, length_m));
   }
 
   /** True once a path that was taken away has faded. */
@@ -77,22 +74,30 @@ export class Ribbon {
     this.done.geometry.setDrawRange(0, Math.round(share * this.pieces) * AROUND * 6);
   }
 
-  private paint(color: string, opacity: number): MeshBasicMaterial {
+  private mesh<G extends BufferGeometry>(shape: G, color: string, opacity: number): Mesh<G, MeshBasicMaterial> {
     const paint = new MeshBasicMaterial({ color: new Color(color), transparent: true, opacity: 0 });
     this.paints.push({ paint, opacity });
-    return paint;
+    const mesh = new Mesh(shape, paint);
+    this.group.add(mesh);
+    return mesh;
   }
+}
 
-  /** Small heads along the thread that point to its end. */
-  private arrows(curve: CatmullRomCurve3, length_m: number): InstancedMesh {
-    const count = Math.max(1, Math.floor(length_m / ARROWS_EVERY_M));
-    const heads = new InstancedMesh(new ConeGeometry(ARROW_M, 2.4 * ARROW_M, 8), this.paint("#fffdf0", 1), count);
-    heads.frustumCulled = false;
-    for (let i = 0; i < count; i++) {
-      const share = (i + 0.5) / count;
-      const turn = new Quaternion().setFromUnitVectors(AHEAD, curve.getTangentAt(share));
-      heads.setMatrixAt(i, new Matrix4().makeRotationFromQuaternion(turn).setPosition(curve.getPointAt(share)));
-    }
-    return heads;
-  }
+/** What never hides anything, drawn before or after the rest as `order` says. */
+function seeThrough(mesh: Mesh<BufferGeometry, MeshBasicMaterial>, order: number): typeof mesh {
+  mesh.material.depthWrite = false;
+  mesh.renderOrder = order;
+  return mesh;
+}
+
+/** Small heads along the thread that point to its end. */
+function arrowHeads(curve: CatmullRomCurve3, length_m: number): BufferGeometry {
+  const count = Math.max(1, Math.floor(length_m / ARROWS_EVERY_M));
+  const heads = Array.from({ length: count }, (_, i) => {
+    const share = (i + 0.5) / count;
+    const turn = new Quaternion().setFromUnitVectors(UPWARDS, curve.getTangentAt(share));
+    const place = new Matrix4().makeRotationFromQuaternion(turn).setPosition(curve.getPointAt(share));
+    return new ConeGeometry(ARROW_M, 2.4 * ARROW_M, 8).applyMatrix4(place);
+  });
+  return mergeGeometries(heads);
 }
