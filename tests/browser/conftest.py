@@ -9,13 +9,15 @@ from dataclasses import replace
 from pathlib import Path
 from threading import Event, Thread
 
+import numpy as np
 import pytest
 from playwright.sync_api import Browser, Page, sync_playwright
 
 from fusion.formats.registry import dialect_named
 from fusion.skeleton import Side
+from fusion.virtual_patient.anatomy import ArmPose
 from fusion.virtual_patient.bystander import Bystander, Visit
-from fusion.virtual_patient.patient import VirtualPatient
+from fusion.virtual_patient.patient import PoseGoal, VirtualPatient
 from fusion.virtual_patient.trial import sensors_for
 from server.cli.browser import find_browser
 
@@ -32,6 +34,12 @@ STEP_S = 1 / 60
 ADDRESSES = ("127.0.0.41", "127.0.0.42")
 PATIENT, VISITOR = "72057594037930000", "72057594037939999"
 """As long as a Kinect's own numbers."""
+POSES = tuple(
+    PoseGoal(ArmPose(*np.radians(angles_deg).tolist()))
+    for angles_deg in ((10, 60, -20, 30), (80, 80, 10, 10), (60, 30, 20, 100), (40, 90, -10, 60))
+)
+"""Plane, elevation, rotation and elbow of an arm that shows how far it goes."""
+POSE_S = 1.5
 
 
 # By module: Playwright's event loop must have ended before other tests ask for one of their own.
@@ -70,24 +78,35 @@ class Crowd:
     """Two virtual sensors that send real OSC of a patient and, once they have come, of somebody who stands beside."""
 
     def __init__(self) -> None:
-        self._ended, self._visited = Event(), Event()
+        self._ended, self._visited, self._shows = Event(), Event(), Event()
 
     def visitor_comes(self) -> None:
         """Somebody steps into view."""
         self._visited.set()
 
+    def show_range(self, shows: bool) -> None:
+        """The patient moves the healthy arm to and fro, or rests again."""
+        if shows:
+            self._shows.set()
+        else:
+            self._shows.clear()
+
     def send(self, sockets: list[socket.socket]) -> None:
         """Send until the end, in real time."""
         dialect = dialect_named("kinectv2-osc")
         patient, visitor = VirtualPatient(Side.RIGHT, 3), Bystander(Visit.STANDS, 4)
-        seen = [(PATIENT, patient, sensors_for(Side.RIGHT, 3)), (VISITOR, visitor, sensors_for(Side.RIGHT, 30))]
+        shown = [(PATIENT, sensors_for(Side.RIGHT, 3)), (VISITOR, sensors_for(Side.RIGHT, 30))]
         while not self._ended.wait(STEP_S):
-            for number, person, sensors in seen if self._visited.is_set() else seen[:1]:
-                positions = person.step(STEP_S)
+            bodies = patient.step(STEP_S, self._goal(patient.t_s)), visitor.step(STEP_S)
+            in_view = list(zip(shown, bodies, strict=True))
+            for (number, sensors), positions in in_view if self._visited.is_set() else in_view[:1]:
                 for opened, sensor in zip(sockets, sensors, strict=True):
                     sample = sensor.see(positions, patient.t_s)
                     for datagram in dialect.encode(replace(sample, body=number), 0) if sample else ():
                         opened.send(datagram)
+
+    def _goal(self, t_s: float) -> PoseGoal | None:
+        return POSES[int(t_s / POSE_S) % len(POSES)] if self._shows.is_set() else None
 
     def end(self) -> None:
         """Nothing is sent any more."""

@@ -36,7 +36,11 @@ export function Frame({ account, at, version, onLogOut, children }: Props) {
 function Menu({ at }: { at: Props["at"] }) {
   return (
     <>
-      <a href={hrefOf({ page: "patients" })} aria-current={at === "patients" ? "page" : undefined}>
+      <a
+        href={hrefOf({ page: "patients" })}
+        aria-current={at === "patients" ? "page" : undefined}
+        data-testid="nav-today"
+      >
         {t("nav.patients")}
       </a>
       <a href={hrefOf({ page: "live" })} aria-current={at === "live" ? "page" : undefined} data-testid="nav-live">

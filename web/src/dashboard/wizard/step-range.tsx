@@ -19,6 +19,17 @@ export function RangeStep({ session, workspace, patient, facts, onTaken }: StepP
   return (
     <>
       <p>{t("wizard.range.do", { name: patient.name })}</p>
+      <div class="row">
+        <button
+          type="button"
+          disabled={doing.busy || workspace.begun || !workspace.enough}
+          onClick={take}
+          data-testid="take-range"
+        >
+          {t("wizard.range.take")}
+        </button>
+        <span class="soft">{t(workspace.begun ? "wizard.range.begun" : "wizard.range.optional")}</span>
+      </div>
       <ul class="wizard-ranges">
         {JOINTS.map((joint) => (
           <li key={joint} data-testid="shown" data-joint={joint}>
@@ -36,17 +47,6 @@ export function RangeStep({ session, workspace, patient, facts, onTaken }: StepP
         {t(`wizard.range.source.${workspace.workspace.source}`)}
         {workspace.workspace.pushed && ` ${t("wizard.range.pushed")}`}
       </p>
-      <div class="row">
-        <button
-          type="button"
-          disabled={doing.busy || workspace.begun || !workspace.enough}
-          onClick={take}
-          data-testid="take-range"
-        >
-          {t("wizard.range.take")}
-        </button>
-        <span class="soft">{t(workspace.begun ? "wizard.range.begun" : "wizard.range.optional")}</span>
-      </div>
       <ProblemBox problem={doing.problem} onClose={doing.forget} />
     </>
   );
