@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import pi, radians
+from math import pi, radians, sqrt
 from typing import Final
 
 import numpy as np
@@ -80,7 +80,9 @@ def likeness(pairs: list[Floats]) -> Likeness | None:
         return None
     if min(np.concatenate(pairs).std(axis=0)) < LEAST_SPREAD_RAD:
         return None
-    correlations = np.array([_correlation(_shifted(pairs, lag)) for lag in lags])
+    middle = np.concatenate(pairs).mean(axis=0)
+    apart = [np.ascontiguousarray((pair - middle).T) for pair in pairs]
+    correlations = np.array([_correlation(apart, lag) for lag in lags])
     best = int(np.argmax(correlations))
     lag_s = (lags[best] + _summit(correlations, best)) / RATE_HZ
     return Likeness(float(lag_s), _concordance(_shifted(pairs, lags[best])))
@@ -97,9 +99,18 @@ def _shifted(pairs: list[Floats], lag: int) -> Floats:
     return np.concatenate(cut)
 
 
-def _correlation(pairs: Floats) -> float:
-    healthy, affected = (pairs - pairs.mean(axis=0)).T
-    return float(healthy @ affected) / max(float(np.linalg.norm(healthy) * np.linalg.norm(affected)), 1e-12)
+def _correlation(apart: list[Floats], lag: int) -> float:
+    """Of healthy at t and affected at t + lag, from (2, N) rows about means near their own; sums, since it is asked for
+    sixty lags.
+    """
+    sums = np.zeros(6)  # 1, h, a, hh, aa, ha
+    for healthy, affected in apart:
+        h = healthy[max(-lag, 0) : len(healthy) - max(lag, 0)]
+        a = affected[max(lag, 0) : len(affected) + min(lag, 0)]
+        sums += (len(h), h.sum(), a.sum(), h @ h, a @ a, h @ a)
+    n, h_all, a_all, hh, aa, ha = sums.tolist()
+    spread = sqrt(max((hh - h_all**2 / n) * (aa - a_all**2 / n), 0.0))
+    return (ha - h_all * a_all / n) / max(spread, 1e-12)
 
 
 def _concordance(pairs: Floats) -> float:
