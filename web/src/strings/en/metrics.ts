@@ -118,7 +118,7 @@ export const metrics = {
   "trust.velocity_peaks": "Noise makes peaks of its own: up to one more in each movement, two in slow ones.",
   "trust.trunk": "Within 3 cm, the largest within 5 cm.",
   "trust.hitch":
-    "Within 3 cm with two cameras, 5 cm with one: only a clear hitch shows. Not yet tried on people who hitch.",
+    "Within 2 cm with two cameras, 4 cm with one: only a clear hitch shows. Not yet tried on people who hitch.",
   "trust.angles": "Within 15° at the shoulder and 25° at the elbow with two cameras; one alone can be far off.",
   "trust.symmetry":
     "With two cameras within 0.03 and 0.02 s; one alone is not enough. A joint that hardly moved has none.",

@@ -114,7 +114,7 @@ export const metrics: Record<keyof typeof english, string> = {
   "trust.sparc": "与真值相差 0.2 以内，与平滑程度的差别相当：只看趋势。",
   "trust.velocity_peaks": "噪声会产生假峰：每次动作至多多一个，慢动作多两个。",
   "trust.trunk": "误差在 3 厘米内，最大值在 5 厘米内。",
-  "trust.hitch": "两台相机误差在 3 厘米内，一台 5 厘米：只有明显耸肩才能看出。尚未在耸肩者身上验证。",
+  "trust.hitch": "两台相机误差在 2 厘米内，一台 4 厘米：只有明显耸肩才能看出。尚未在耸肩者身上验证。",
   "trust.angles": "两台相机：肩部 15°、肘部 25° 以内；单台可能相差很大。",
   "trust.symmetry": "两台相机误差在 0.03 与 0.02 秒内；单台不够。几乎未动的关节不给出。",
   "trust.torque": "由驱动力矩与手臂模型推算，含摩擦。",
