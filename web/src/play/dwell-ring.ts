@@ -1,6 +1,19 @@
 // The rings round a place where the hand is to stay: a white one that closes as the hand comes near, and a thick arc
 // that fills while it stays. They face the eyes and are never hidden behind hand or thing.
-import { type Camera, Color, DoubleSide, Group, Mesh, MeshBasicMaterial, RingGeometry, type Vector3 } from "three";
+import {
+  type BufferGeometry,
+  type Camera,
+  Color,
+  DoubleSide,
+  Group,
+  Mesh,
+  MeshBasicMaterial,
+  type MeshBasicMaterialParameters,
+  RingGeometry,
+  type Vector3,
+} from "three";
+import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
+import { tinted } from "./paint";
 
 /** The closing ring is wider than the zone by this much per metre between hand and zone. */
 const OPENING_PER_M = 2.6;
@@ -13,14 +26,13 @@ const ABOVE_ALL = 8;
 /** In units of the zone's radius: scale the group, or what it is in, by that. */
 export class DwellRing {
   readonly group = new Group();
-  private readonly closing = ring(0.97, 1.03, "#ffffff", 0.95);
-  private readonly closingEdge = ring(1.03, 1.075, "#1d3a52", 0.8);
+  private readonly closing = edgedRing(0.97, 1.03, 1.075);
   private readonly track = ring(1.07, 1.36, "#1d3a52", 0.85);
   private readonly arc = ring(1.12, 1.31, "#ffd23c", 1, ARC_STEPS);
   private filled = 0;
 
   constructor() {
-    this.group.add(this.track, this.arc, this.closing, this.closingEdge);
+    this.group.add(this.track, this.arc, this.closing);
   }
 
   /** How full the arc is drawn, 0..1. */
@@ -32,9 +44,7 @@ export class DwellRing {
   animate(dt_s: number, gap_m: number, progress: number, camera: Camera): void {
     this.filled += (progress - this.filled) * Math.min(1, dt_s * FOLLOWING_PER_S);
     this.group.quaternion.copy(camera.quaternion);
-    const opening = Math.min(WIDEST, 1 + gap_m * OPENING_PER_M);
-    this.closing.scale.setScalar(opening);
-    this.closingEdge.scale.setScalar(opening);
+    this.closing.scale.setScalar(Math.min(WIDEST, 1 + gap_m * OPENING_PER_M));
     const holding = this.filled > 0.01;
     this.track.visible = holding;
     this.arc.visible = holding;
@@ -51,13 +61,18 @@ export function gapTo(hand: Vector3 | null, place: Vector3, radius_m: number): n
 function ring(inner: number, outer: number, color: string, opacity: number, steps = 48): Mesh<RingGeometry> {
   const geometry = new RingGeometry(inner, outer, steps, 1, Math.PI / 2, Math.PI * 2);
   geometry.scale(-1, 1, 1);
-  const material = new MeshBasicMaterial({
-    color: new Color(color),
-    transparent: true,
-    opacity,
-    depthTest: false,
-    side: DoubleSide,
-  });
+  return aboveAll(geometry, { color: new Color(color), opacity });
+}
+
+/** A white ring with a dark edge: one shape, since every further one costs a slow screen as much again. */
+function edgedRing(inner: number, edge: number, outer: number): Mesh {
+  const white = tinted(new RingGeometry(inner, edge, 48), "#ffffff");
+  const dark = tinted(new RingGeometry(edge, outer, 48), "#1d3a52");
+  return aboveAll(mergeGeometries([white, dark]), { vertexColors: true, opacity: 0.9 });
+}
+
+function aboveAll<G extends BufferGeometry>(geometry: G, look: MeshBasicMaterialParameters): Mesh<G> {
+  const material = new MeshBasicMaterial({ ...look, transparent: true, depthTest: false, side: DoubleSide });
   const mesh = new Mesh(geometry, material);
   mesh.renderOrder = ABOVE_ALL;
   return mesh;

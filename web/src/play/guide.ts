@@ -1,6 +1,5 @@
 // What makes depth readable: a plumb line and a ring on the table under hand and target, and a dotted way between.
 import {
-  CircleGeometry,
   Color,
   CylinderGeometry,
   DoubleSide,
@@ -23,11 +22,11 @@ const SHORTEST_WAY_M = 0.1;
 /** The dots begin and end off the hand and the fruit. */
 const CLEAR_M = 0.07;
 
-/** A plumb line with a ring and a spot where it meets the table. */
+/** A plumb line with a ring where it meets the table. */
 class Plumb {
   readonly group = new Group();
   private readonly line: Mesh;
-  private readonly foot = new Group();
+  private readonly foot: Mesh;
 
   constructor(color: string, radius_m: number) {
     const paint = (opacity: number) =>
@@ -39,9 +38,7 @@ class Plumb {
         depthWrite: false,
       });
     this.line = new Mesh(new CylinderGeometry(0.0022, 0.0022, 1, 6), paint(0.75));
-    const ring = new Mesh(new RingGeometry(radius_m * 0.8, radius_m, 40), paint(0.95));
-    const spot = new Mesh(new CircleGeometry(radius_m * 0.8, 32), paint(0.3));
-    this.foot.add(ring, spot);
+    this.foot = new Mesh(new RingGeometry(radius_m * 0.76, radius_m, 32), paint(0.95));
     this.foot.rotation.x = -Math.PI / 2;
     this.group.add(this.line, this.foot);
   }

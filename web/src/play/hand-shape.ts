@@ -63,7 +63,7 @@ const PALM_ROUNDING_M = 0.0122;
 /** Half-axes of the wrist, shared with the forearm that ends there. */
 export const WRIST_HALF_M = { across: 0.0275, through: 0.0205 } as const;
 /** As fine as eyes see at a table's distance; half of all corners on the screen are the hand's. */
-const GRID_STEP_M = 0.0055;
+const GRID_STEP_M = 0.0065;
 /** Enough for what is only seen as a shadow. */
 export const ROUGH_STEP_M = 0.009;
 

@@ -1,6 +1,6 @@
 // The panel: one plain sentence when there is nothing to play, what comes next, a breathing picture in the rest.
 import { type Key, t } from "../strings";
-import { child, setText } from "./dom";
+import { child, setData, setText } from "./dom";
 import type { Face } from "./screen";
 import { type Known, wordsFor } from "./words";
 
@@ -41,7 +41,7 @@ export class Overlay {
   /** Shows the face; `reason` is a further sentence for it, if there is one. */
   show(face: Face, known: Known, reason: Key | null, now_s: number): void {
     this.root.hidden = face === "playing";
-    this.root.dataset.face = face;
+    setData(this.root, "face", face);
     if (face === "playing") return;
     const words = wordsFor(face, known);
     setText(this.title, words.title);

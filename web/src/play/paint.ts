@@ -1,5 +1,5 @@
 // Colours painted onto the corners of a shape, light included: scenery that needs no lamp.
-import { BufferAttribute, type BufferGeometry, type Color, Vector3 } from "three";
+import { BufferAttribute, type BufferGeometry, Color, Vector3 } from "three";
 
 /** Where the morning light on the scenery comes from. */
 const LIGHT = new Vector3(-0.45, 0.8, 0.4).normalize();
@@ -24,4 +24,10 @@ export function shade<G extends BufferGeometry>(geometry: G, color: Color): G {
     const facing = new Vector3().fromBufferAttribute(normals, i++).dot(LIGHT);
     return color.clone().multiplyScalar(DIMMEST + (1.08 - DIMMEST) * Math.max(0, 0.35 + 0.65 * facing));
   });
+}
+
+/** One colour all over. */
+export function tinted<G extends BufferGeometry>(geometry: G, color: string): G {
+  const one = new Color(color);
+  return paint(geometry, () => one);
 }

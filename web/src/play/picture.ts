@@ -3,6 +3,7 @@ import { Vector3 } from "three";
 import type { LiveMessage } from "../api/types";
 import { type Changes, changesBetween, type GameView, NOTHING } from "./changes";
 import { Choices } from "./choices";
+import { setData } from "./dom";
 import { Effects } from "./effects";
 import { Guide } from "./guide";
 import { Hud } from "./hud";
@@ -163,25 +164,29 @@ export class Picture {
 
   /** What a test, or a person looking into the page, wants to know without looking at pixels. */
   private mark(face: Face, hand: Vector3 | null): void {
-    const { dataset } = this.page;
     this.drawn += 1;
-    dataset.drawn = String(this.drawn);
-    dataset.face = face;
-    dataset.state = this.newest?.tick.state ?? "";
-    dataset.game = this.game?.game ?? "";
-    dataset.phase = this.game?.phase ?? "";
-    dataset.score = String(this.game?.total_score ?? 0);
-    dataset.game = this.game?.game ?? "";
-    dataset.scene = this.scenes.shown;
-    dataset.fps = this.pace.fps.toFixed(0);
-    dataset.pixels = String(this.pace.effort.pixels);
-    dataset.hand = hand
-      ? hand
-          .toArray()
-          .map((value) => value.toFixed(3))
-          .join(" ")
-      : "";
+    const marks: Record<string, string> = {
+      drawn: String(this.drawn),
+      face,
+      state: this.newest?.tick.state ?? "",
+      game: this.game?.game ?? "",
+      phase: this.game?.phase ?? "",
+      score: String(this.game?.total_score ?? 0),
+      scene: this.scenes.shown,
+      fps: this.pace.fps.toFixed(0),
+      pixels: String(this.pace.effort.pixels),
+      hand: hand ? textOf(hand) : "",
+    };
+    for (const [name, value] of Object.entries(marks)) setData(this.page, name, value);
   }
+}
+
+/** "x y z" in metres. */
+function textOf(point: Vector3): string {
+  return point
+    .toArray()
+    .map((value) => value.toFixed(3))
+    .join(" ");
 }
 
 function cueFor(changes: Changes): Cue | null {
