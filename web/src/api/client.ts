@@ -91,6 +91,10 @@ export const readAdherence = (id: number, weeks: number) =>
   taken(http.GET("/api/patients/{patient_id}/adherence", { params: { path: { patient_id: id }, query: { weeks } } }));
 /** How every figure went over the patient's sessions. */
 export const readProgress = (id: number) => taken(http.GET("/api/patients/{patient_id}/progress", patient(id)));
+/** What every measure means: formula, source, filter, and how far these sensors can be trusted for it. */
+export const listMeasures = () => taken(http.GET("/api/metrics"));
+/** The tests that a person scores, with what a change in them means. */
+export const listScales = () => taken(http.GET("/api/scales"));
 export const listScores = (id: number) => taken(http.GET("/api/patients/{patient_id}/scores", patient(id)));
 export const addScore = (id: number, form: ScoreForm) =>
   taken(http.POST("/api/patients/{patient_id}/scores", { ...patient(id), body: form }));

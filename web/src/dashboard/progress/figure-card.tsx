@@ -1,10 +1,13 @@
 // One figure over the sessions, with the band in which a change may be chance, and in words what can be said.
 import { useState } from "preact/hooks";
+import { listMeasures } from "../../api/client";
 import type { ProgressLine, Side } from "../../api/types";
 import { t } from "../../strings";
+import { useAsked } from "../hooks";
 import { translatedOr } from "../session/metrics";
 import { type ChartLine, type Span, TimeChart, Wide } from "../time-chart";
 import { amount, type Family, familyName, firstFamilies, mainLine, shownIn, verdictSign, verdictWords } from "./lines";
+import { MeasureSources } from "./sources";
 
 const HEIGHT = 280;
 
@@ -16,9 +19,11 @@ interface Props {
 
 export function FigureCard({ families, affected, days }: Props) {
   const first = firstFamilies(families);
+  const measures = useAsked(listMeasures, "measures").value;
   const [chosen, setChosen] = useState(first[0]?.id ?? families[0]?.id ?? "");
   const family = families.find(({ id }) => id === chosen) ?? families[0];
   if (!family) return null;
+  const measure = measures?.find(({ name }) => name === family.name);
   return (
     <section class="card" data-testid="progress-figure" data-family={family.id}>
       <div class="heading">
@@ -53,6 +58,7 @@ export function FigureCard({ families, affected, days }: Props) {
       </fieldset>
       <FigureChart family={family} affected={affected} days={days} />
       <Said family={family} affected={affected} />
+      {measure && <MeasureSources measure={measure} />}
     </section>
   );
 }

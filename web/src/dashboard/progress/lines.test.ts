@@ -1,6 +1,6 @@
 import { describe, expect, test } from "vitest";
 import type { ProgressLine } from "../../api/types";
-import { familiesOf, firstFamilies, isDriven, mainLine, saidOf, verdictWords } from "./lines";
+import { familiesOf, firstFamilies, isDriven, mainLine, saidOf, saidOfScores, verdictWords } from "./lines";
 
 const line = (name: string, rest: Partial<ProgressLine> = {}, values: readonly number[] = [1, 1.4]): ProgressLine => ({
   name,
@@ -75,4 +75,12 @@ describe("what is said", () => {
     expect(saidOf({ ...silent, trust: "poor" })).toBe("poor");
     expect(saidOf(silent)).toBe("unknown");
   });
+});
+
+test("scores have changed by more than chance only where the test's own variation is known and exceeded", () => {
+  expect(saidOfScores([31, 35, 41], 6.82)).toBe("better");
+  expect(saidOfScores([41, 31], 6.82)).toBe("worse");
+  expect(saidOfScores([31, 36], 6.82)).toBe("unchanged");
+  expect(saidOfScores([31, 41], null)).toBe("unknown");
+  expect(saidOfScores([31], 6.82)).toBe("one");
 });

@@ -104,3 +104,12 @@ export function verdictWords(line: ProgressLine): string {
   const difference = line.difference === null ? "–" : signedAmount(line, line.difference);
   return t(`progress.verdict.${saidOf(line)}`, { difference, mdc: amount(line, line.mdc) });
 }
+
+/** What can be said of a scored test, more of which is better on all of them; null = how much it varies is not known. */
+export function saidOfScores(values: readonly number[], mdc: number | null): Said {
+  const [first, last] = [values[0], values.at(-1)];
+  if (first === undefined || last === undefined || values.length < 2) return "one";
+  if (mdc === null) return "unknown";
+  if (Math.abs(last - first) <= mdc) return "unchanged";
+  return last > first ? "better" : "worse";
+}

@@ -1,9 +1,14 @@
 // Scores of standard tests over the same days as the figures above them.
-import type { Score, Side } from "../../api/types";
+import { listScales } from "../../api/client";
+import type { Scale, Score, Side } from "../../api/types";
 import { t } from "../../strings";
+import { figure } from "../format";
+import { useAsked } from "../hooks";
 import { GREATEST, KINDS, type Kind } from "../scores/scales";
 import { Days, type Span, Wide, xOf } from "../time-chart";
 import { middayOf } from "./days";
+import { saidOfScores } from "./lines";
+import { ScaleSources } from "./sources";
 
 const HEIGHT = 84;
 const TOP = 26;
@@ -17,26 +22,29 @@ interface Props {
 }
 
 export function ScoreCard(props: Props) {
+  const scales = useAsked(listScales, "scales").value ?? [];
   return (
     <section class="card" data-testid="progress-scores">
       <h2>{t("progress.scores")}</h2>
-      <Wide>{(width) => <ScoreStrips {...props} width={width} />}</Wide>
+      <Wide>{(width) => <ScoreStrips {...props} scales={scales} width={width} />}</Wide>
       <p class="small soft">{t("progress.scores.how")}</p>
+      {scales.length > 0 && <ScaleSources scales={scales} />}
     </section>
   );
 }
 
 /** A strip a test, of the affected arm; each on its own scale, with the points' own numbers. */
-export function ScoreStrips({ scores, days, affected, width }: Props & { width: number }) {
+function ScoreStrips({ scores, scales, days, affected, width }: Props & { scales: readonly Scale[]; width: number }) {
   const of = (kind: Kind) => scores.filter((score) => score.kind === kind && score.side === affected);
   const kinds = KINDS.filter((kind) => of(kind).length > 0);
   return (
     <>
       {kinds.map((kind) => (
         <div key={kind}>
-          <span class="small">
-            <strong>{t(`score.${kind}`)}</strong> {t("progress.scores.scale", { most: GREATEST[kind] })}
-          </span>
+          <p class="small">
+            <strong>{t(`score.${kind}`)}</strong> {t("progress.scores.scale", { most: GREATEST[kind] })}.{" "}
+            <ScoreVerdict values={of(kind).map(({ value }) => value)} scale={scales.find((one) => one.kind === kind)} />
+          </p>
           <Strip kind={kind} scores={of(kind)} days={days} width={width} />
         </div>
       ))}
@@ -45,6 +53,13 @@ export function ScoreStrips({ scores, days, affected, width }: Props & { width: 
       </svg>
     </>
   );
+}
+
+function ScoreVerdict({ values, scale }: { values: readonly number[]; scale: Scale | undefined }) {
+  const mdc = scale?.mdc?.value ?? null;
+  const difference = (values.at(-1) ?? 0) - (values[0] ?? 0);
+  const words = { difference: `${difference > 0 ? "+" : ""}${figure(difference)}`, mdc: figure(mdc, 1) };
+  return <span data-testid="score-verdict">{t(`progress.verdict.${saidOfScores(values, mdc)}`, words)}</span>;
 }
 
 interface StripProps {
