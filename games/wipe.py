@@ -5,11 +5,11 @@ patch and beside it. A trial is one patch, to be cleared in its time; what stays
 Patches begin in the middle of the pane and go outwards, and every further picture reaches nearer to the rim.
 
 Things: "pane": its middle, half the side of a cell (`radius_m`), its lean (`turn_rad`, upper edge away from the eyes),
-the share that is clear (`progress`), and each cell (`state`): rows from the top joined by "/", a cell being "0" (mist)
-to "9" (clear), or "." where it is not to be wiped; another picture is another id. "cell": one of the patch, its
-progress how clear it is. "wiper": the point of the pane under the hand, its radius what is wiped, its state "on" or,
-where the hand is too far from the pane, "off"; its progress how near the hand is. "timer": its progress is the share of
-the time that is gone. Feedback: "wiped", and "picture" when all is clear.
+the share that is clear (`progress`), and each cell (`state`): rows from the top, left to right, joined by "/", a cell
+being "0" (mist) to "9" (clear), or "." where it is not to be wiped; another picture is another id. "cell": one of the
+patch, its progress how clear it is. "wiper": the point of the pane under the hand, its radius what is wiped, its state
+"on" or, where the hand is too far from the pane, "off"; its progress how near the hand is. "timer": its progress is
+the share of the time that is gone. Feedback: "wiped", and "picture" when all is clear.
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from fusion.skeleton import Side
 from games.even_steps import STEP_S, EvenSteps
 from games.game import Point, ThingView, Workspace
 from games.levels import between
@@ -53,6 +54,9 @@ POINTS: Final = 3
 FAR: Final = 0.3
 """Of the way from the hand, beside the way from the middle, where the next patch is chosen."""
 
+UNDER_M: Final = 1.0
+"""What a cell under the hand costs: a patch that begins there would be wiped by a hand at rest."""
+
 
 @dataclass(frozen=True, slots=True)
 class Patch:
@@ -84,7 +88,7 @@ class WipeRules:
     """
 
     def __init__(self, workspace: Workspace, rng: np.random.Generator) -> None:
-        self._rng = rng
+        self._rng, self._side = rng, workspace.side
         self._pane = pane(workspace, rng)
         self._time = EvenSteps()
         self._patch: Patch | None = None
@@ -152,11 +156,13 @@ class WipeRules:
         )
 
     def _chosen(self, count: int) -> tuple[int, ...]:
-        """A misted cell near the middle and the hand, and the misted cells nearest to it."""
+        """A misted cell near the middle and the hand, yet not under it, and the misted cells nearest to it."""
         misted, places = self._mist.left, self._pane.places
         from_hand_m = np.linalg.norm(places - np.asarray(self._hand), axis=1)
         noise_m = self._rng.uniform(0.0, self._pane.cell_m, len(places))
-        cost = self._pane.from_centre_m() + FAR * from_hand_m + noise_m
+        aside_m = np.linalg.norm(places - np.asarray(self._pane.on(self._hand)), axis=1)
+        under_m = np.where(aside_m <= EASY_WIPER_M, UNDER_M, 0.0)
+        cost = self._pane.from_centre_m() + FAR * from_hand_m + noise_m + under_m
         seed = int(misted[np.argmin(cost[misted])])
         from_seed_m = np.linalg.norm(places[misted] - places[seed], axis=1)
         nearest = misted[np.argsort(from_seed_m, kind="stable")[:count]]
@@ -214,7 +220,7 @@ class WipeRules:
 
     def _drawn(self) -> ThingView:
         fog, cell_m = self._mist, self._pane.cell_m
-        signs = fog.signs(COLUMNS)
+        signs = fog.signs(COLUMNS, backwards=self._side is Side.LEFT)
         return ThingView(fog.id, "pane", self._pane.centre, cell_m / 2.0, fog.share, signs, TILT_RAD)
 
     def _cells(self, patch: Patch) -> tuple[ThingView, ...]:
