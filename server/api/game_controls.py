@@ -65,9 +65,7 @@ class GameControls:
         self._require(wish, client, account)
         playing = course.playing
         if playing is None:
-            raise RefusedError(
-                "the games have not begun", "an arm that has been engaged once", "start the arm; the first game follows"
-            )
+            return _before_the_games(course, wish)
         view = playing.picture
         _check_possible(wish, view)
         level = view.level if form.level is None else form.level
@@ -118,6 +116,16 @@ class GameControls:
         if wish is Wish.GO_ON and shows_patient:
             return
         self._authority.require(client)
+
+
+def _before_the_games(course: Course, wish: Wish) -> GameAnswer:
+    """All that can be wished then is to do without a screen that has gone."""
+    if wish is not Wish.GO_ON or not course.screens.is_lost:
+        raise RefusedError(
+            "the games have not begun", "an arm that has been engaged once", "start the arm; the first game follows"
+        )
+    course.screens.go_on_without()
+    return GameAnswer(game=course.opening.exercises[0].game, phase=Phase.WAITING)
 
 
 def _check_possible(wish: Wish, view: GameView) -> None:

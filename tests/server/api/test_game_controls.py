@@ -190,6 +190,17 @@ def test_a_game_whose_screen_is_closed_waits_and_loses_nothing(in_play, therapis
     assert [event["data"]["screens"] for event in events if event["kind"] == "screen"] == [1, 2, 1, 0, 1]
 
 
+def test_a_screen_that_goes_before_the_first_game_may_be_done_without(opened, therapist, look):
+    page = opened()
+    screen = look(therapist, "screen", "patient")
+    until(lambda: page.messages and line(page) and line(page)["patient_screens"] == 1)
+    screen.close()
+    until(lambda: line(page)["screen_lost"])
+    assert wish(page, "go_on").json() == {"game": "reach", "phase": "waiting"}
+    until(lambda: not line(page)["screen_lost"])
+    assert wish(page, "go_on").status_code == 409
+
+
 def test_a_screen_whose_cable_is_pulled_is_missed_as_well(in_play, therapist, look, monkeypatch):
     monkeypatch.setattr("server.api.authority.SCREEN_LOST_AFTER_S", 0.3)
     screen = look(therapist, "screen", "patient")
