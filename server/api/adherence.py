@@ -10,6 +10,9 @@ from db.plan import DAYS, TherapyPlan
 from db.therapy_session import SessionStatus, TherapySession
 from server.api.plan_forms import Adherence, AdherenceDay, AdherenceWeek
 
+LEAST_PLAYED_S = 60.0
+"""A session that was broken off earlier is not one that was done."""
+
 
 def today() -> date:
     """The day that it is here."""
@@ -32,8 +35,9 @@ def day_of(session: TherapySession) -> date:
 
 
 def counts_as_done(session: TherapySession) -> bool:
-    """Whether a session counts: it is over, and something was played in it."""
-    return session.status is not SessionStatus.OPEN and any(one.played_s > 0.0 for one in session.played)
+    """Whether a session counts: it is over, and somebody really played in it."""
+    played_s = sum(one.played_s for one in session.played)
+    return session.status is not SessionStatus.OPEN and played_s >= LEAST_PLAYED_S
 
 
 def done_since(sessions: Iterable[TherapySession], since: date) -> int:

@@ -233,7 +233,8 @@ def test_the_next_session_begins_at_the_level_that_was_reached(in_play, opened):
     assert [one["level"] for one in again.session["exercises"]] == [0.75, 0.3]
 
 
-def test_a_played_session_counts_for_the_plan(in_play, therapist):
+def test_a_played_session_counts_for_the_plan(in_play, therapist, monkeypatch):
+    monkeypatch.setattr("server.api.adherence.LEAST_PLAYED_S", 0.2)
     time.sleep(0.3)
     in_play.post(f"{in_play.path}/end").raise_for_status()
     path = f"/api/patients/{in_play.session['patient_id']}/adherence?weeks=1"

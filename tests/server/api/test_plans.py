@@ -92,7 +92,8 @@ def test_a_patient_is_due_until_today_is_done(therapist, new_patient, trained):
     assert (row["due"], row["done_this_week"], row["planned_this_week"]) == (True, 0, 7)
     assert row["plan"]["minutes"] == 6.0
     assert (row["plan"]["week"], row["last_session"], row["limits_signed"]) == (1, None, True)
-    unplayed = trained(patient, minutes=0)
+    trained(patient, minutes=0)
+    unplayed = trained(patient, minutes=0.9)
     assert row_of(therapist, patient)["due"]
     assert row_of(therapist, patient)["last_session"]["id"] == unplayed
     trained(patient, minutes=5)
