@@ -15,7 +15,7 @@ from fusion.skeleton import Side
 from games.catalogue import GAMES, open_game
 from games.game import Game, GameInput, GameSettings, GameView, Phase, Point, Trial, Wish, Workspace
 from games.play import Play
-from games.player import MIDDLE, QUICK, Ability, Player
+from games.player import MIDDLE, QUICK, WEAK, Ability, Player
 from games.programme import Exercise
 from games.replay import GameRecord, Played, opened, played
 from games.workspace import hand_at, middle_pose, reachable
@@ -156,7 +156,7 @@ def test_a_mirrored_workspace_is_as_hard(game: str, workspace_of: WorkspaceOf) -
 
 
 @every_game
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", range(3))
 def test_a_hand_that_does_nothing_never_scores(game: str, seed: int, usual: Workspace) -> None:
     idle = begun(game, usual, 0.0, seed)
     hand = hand_at(usual, middle_pose(usual))
@@ -208,3 +208,12 @@ def test_a_number_names_one_thing_only(game: str, usual: Workspace) -> None:
         assert len({thing.id for thing in view.things}) == len(view.things)
         assert all(kinds.setdefault(thing.id, thing.kind) == thing.kind for thing in view.things)
     assert len(kinds) > 3
+
+
+@every_game
+def test_the_levels_reach_from_what_a_weak_hand_does_to_what_a_quick_one_misses(game: str, usual: Workspace) -> None:
+    easy, hard = begun(game, usual, 0.0), begun(game, usual, 1.0)
+    course(easy, WEAK, 80.0)
+    course(hard, QUICK, 60.0)
+    assert np.mean([trial.success for trial in easy.trials]) >= 0.9
+    assert np.mean([trial.success for trial in hard.trials]) <= 0.55
