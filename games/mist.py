@@ -38,11 +38,17 @@ class Mist:
         """The mist with so much more of it gone from the cells (n,) under the hand."""
         return replace(self, clear=np.where(under, np.minimum(self.clear + share, 1.0), self.clear))
 
-    def signs(self, columns: int) -> str:
-        """Each cell as "0" (mist) to "9" (clear), "." where no mist ever was; rows joined by "/"."""
+    def signs(self, columns: int, *, backwards: bool) -> str:
+        """Each cell as "0" (mist) to "9" (clear), "." where no mist ever was; rows joined by "/".
+
+        Args:
+            columns: cells in a row.
+            backwards: each row from its end.
+        """
         tenths = np.floor(self.clear * 9.0 + 1e-9).astype(int).tolist()
         signs = [str(tenth) if here else "." for tenth, here in zip(tenths, self.in_play.tolist(), strict=True)]
-        return "/".join("".join(signs[k : k + columns]) for k in range(0, len(signs), columns))
+        rows = [signs[k : k + columns] for k in range(0, len(signs), columns)]
+        return "/".join("".join(reversed(row) if backwards else row) for row in rows)
 
 
 def mist(number: int, in_play: NDArray[np.bool_]) -> Mist:

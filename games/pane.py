@@ -8,6 +8,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from fusion.kinematics.angles import OUTWARD
 from fusion.messages import Floats
 from games.game import Point, Workspace
 from games.nearest import reaches
@@ -26,7 +27,7 @@ INNER: Final = (2.0, 98.0)
 
 @dataclass(frozen=True, slots=True)
 class Pane:
-    """The pane and its cells, row by row from the top, each row from the patient's left."""
+    """The pane and its cells, row by row from the top, each row from its inner end: both sides are mirror images."""
 
     centre: Point
     cell_m: float
@@ -68,9 +69,11 @@ def pane(workspace: Workspace, rng: np.random.Generator) -> Pane:
     low, high = np.percentile(places, INNER, axis=0)
     wished = np.array([(low[0] + high[0]) / 2.0, (low[1] + high[1]) / 2.0, float(np.median(places[:, 2]))])
     middle = places[int(np.argmin(np.linalg.norm(places - wished, axis=1)))]
-    cell_m = float(np.clip(max((high[:2] - low[:2]) / (COLUMNS, ROWS)), SMALLEST_CELL_M, LARGEST_CELL_M))
+    wanted_m = float(max((high[:2] - low[:2]) / (COLUMNS, ROWS)))
+    # Rounded, so that both sides' cells are equal to the last digit.
+    cell_m = round(min(max(wanted_m, SMALLEST_CELL_M), LARGEST_CELL_M), 4)
     centre = middle @ _AXES
-    cells = centre + _steps(cell_m) @ _AXES[:2]
+    cells = centre + _steps(cell_m) * (OUTWARD[workspace.side], 1.0) @ _AXES[:2]
     x, y, z = centre.tolist()
     return Pane((x, y, z), cell_m, cells, _reachable(workspace, cells))
 
@@ -83,9 +86,9 @@ def _in_sight(workspace: Workspace, places: Floats) -> Floats:
 
 
 def _steps(cell_m: float) -> Floats:
-    """(ROWS * COLUMNS, 2) m from the middle to each cell, rightward and upward."""
-    up, right = np.meshgrid(ROWS // 2 - np.arange(ROWS), np.arange(COLUMNS) - COLUMNS // 2, indexing="ij")
-    return np.asarray(np.stack([right.ravel(), up.ravel()], axis=1) * cell_m)
+    """(ROWS * COLUMNS, 2) m from the middle to each cell, outward and upward."""
+    up, outward = np.meshgrid(ROWS // 2 - np.arange(ROWS), np.arange(COLUMNS) - COLUMNS // 2, indexing="ij")
+    return np.asarray(np.stack([outward.ravel(), up.ravel()], axis=1) * cell_m)
 
 
 def _reachable(workspace: Workspace, cells: Floats) -> NDArray[np.bool_]:

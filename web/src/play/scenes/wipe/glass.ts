@@ -12,6 +12,7 @@ import {
   Vector3,
   Vector4,
 } from "three";
+import type { Cells } from "./cells";
 
 /** Mist clears, and the patch is marked, at this speed. */
 const CHANGING_PER_S = 9;
@@ -64,12 +65,6 @@ void main() {
   gl_FragColor = vec4(colour, 1.0);
   #include <colorspace_fragment>
 }`;
-
-/** How misted the cells are and which belong to the patch; row by row from the top. */
-export interface Cells {
-  readonly mist: readonly number[];
-  readonly patch: readonly boolean[];
-}
 
 export class Glass {
   readonly mesh: Mesh<PlaneGeometry, ShaderMaterial>;

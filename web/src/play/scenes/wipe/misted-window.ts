@@ -5,14 +5,14 @@ import { dispose } from "../../dispose";
 import { Effects } from "../../effects";
 import type { GameScene, Moment } from "../../scene";
 import { tone } from "../../sound";
+import { type Cells, cellsOf, gridOf, NO_CELLS } from "./cells";
 import { Frame } from "./frame";
-import { type Cells, Glass } from "./glass";
+import { Glass } from "./glass";
 import { nextLandscape } from "./landscapes";
 import { Sparkles } from "./sparkles";
 import { Wiper } from "./wiper";
 
 const GLEAM_S = 1.6;
-const NO_CELLS: Cells = { mist: [], patch: [] };
 
 export class MistedWindow implements GameScene {
   readonly group = new Group();
@@ -74,7 +74,7 @@ export class MistedWindow implements GameScene {
   /** Takes the pane as it is now; another one shows another landscape. */
   private see(pane: ThingView, things: readonly ThingView[]): void {
     const glass = this.glass ?? this.put(pane);
-    const cells = cellsOf(pane, things, this.window);
+    const cells = cellsOf(pane, things, (place) => this.window.worldToLocal(place));
     if (pane.id === this.pane) this.glint(glass, pane, cells);
     this.cells = cells;
     if (pane.id !== this.pane) this.change(glass, pane.id);
@@ -82,17 +82,16 @@ export class MistedWindow implements GameScene {
 
   /** Sets up the window where the rules have laid it. */
   private put(pane: ThingView): Glass {
-    const rows = pane.state.split("/");
+    const { columns, rows } = gridOf(pane);
     const cell_m = 2 * pane.radius_m;
-    const columns = rows[0]?.length ?? 1;
-    this.glass = new Glass(columns, rows.length, cell_m);
-    this.frame = new Frame(columns * cell_m, rows.length * cell_m);
+    this.glass = new Glass(columns, rows, cell_m);
+    this.frame = new Frame(columns * cell_m, rows * cell_m);
     this.sparkles = new Sparkles(cell_m);
     this.window.position.set(...pane.position);
     this.window.rotation.x = -pane.turn_rad;
     this.window.add(this.glass.mesh, this.frame.group, this.sparkles.points);
     this.window.updateMatrixWorld(true);
-    this.frame.stand(this.corners((columns * cell_m) / 2, (rows.length * cell_m) / 2));
+    this.frame.stand(this.corners((columns * cell_m) / 2, (rows * cell_m) / 2));
     this.group.add(this.frame.legs);
     return this.glass;
   }
@@ -126,32 +125,6 @@ export class MistedWindow implements GameScene {
     this.gleam_s = 0;
     for (const x of [-0.2, 0, 0.2]) this.feast.burst(this.window.localToWorld(new Vector3(x, 0.06, 0.02)));
   }
-}
-
-/** What the pane's signs say: "0" (mist) to "9" (clear), "." where no mist is; and which cells the patch has left. */
-function cellsOf(pane: ThingView, things: readonly ThingView[], window: Group): Cells {
-  const signs = [...pane.state.replaceAll("/", "")];
-  const rows = pane.state.split("/").length;
-  const columns = signs.length / rows;
-  const patch = signs.map(() => false);
-  for (const cell of things.filter((thing) => thing.kind === "cell" && thing.progress < 1)) {
-    const at = window.worldToLocal(new Vector3(...cell.position)).divideScalar(2 * pane.radius_m);
-    const row = Math.round((rows - 1) / 2 - at.y);
-    patch[row * columns + Math.round(at.x + (columns - 1) / 2)] = true;
-  }
-  return { mist: mistOf(signs, columns), patch };
-}
-
-/** 1 = mist .. 0 = clear. A cell that is not to be wiped clears with the nearest one that is. */
-function mistOf(signs: readonly string[], columns: number): number[] {
-  const wiped = signs.flatMap((sign, i) => (sign === "." ? [] : [i]));
-  const apart = (i: number, k: number) =>
-    Math.hypot((i % columns) - (k % columns), Math.floor(i / columns) - Math.floor(k / columns));
-  return signs.map((sign, i) => {
-    const nearest =
-      sign === "." ? wiped.reduce((best, k) => (apart(i, k) < apart(i, best) ? k : best), wiped[0] ?? i) : i;
-    return 1 - Number(signs[nearest]) / 9;
-  });
 }
 
 /** Where something was won: the middle of the patch that is done. */
