@@ -10,7 +10,7 @@ import numpy as np
 from fusion.messages import Floats
 from fusion.metrics.metric import ADAPTED, PASSIVE_DRIVE, Metric
 from fusion.metrics.record import Attempt, SessionRecord
-from fusion.metrics.uncertainty import bootstrap_sem, mean_sem, share_sem
+from fusion.metrics.uncertainty import bootstrap_sem, share_sem, wandering_sem
 from fusion.skeleton import Side
 
 Figure = tuple[str, str, Callable[[Attempt], float | None]]
@@ -40,7 +40,7 @@ def _of_game(game: str, attempts: list[Attempt], side: Side, driven: bool) -> li
     return [
         Metric("game_repetitions", float(len(attempts)), "1", game, side),
         Metric("game_success", share, "1", game, side, ADAPTED, share_sem(hits, len(attempts))),
-        Metric("game_level", float(levels.mean()), "1", game, side, None, mean_sem(levels)),
+        Metric("game_level", float(levels.mean()), "1", game, side, None, wandering_sem(levels)),
         *_medians(game, attempts, side, driven),
     ]
 

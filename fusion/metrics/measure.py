@@ -66,6 +66,10 @@ class Measure:
     """The smallest change that mattered to patients; None = not published for this sensor."""
     trust_of_one: Trust | None = None
     """With one depth camera alone; None = the same."""
+    camera_error: float = 0.0
+    """Standard deviation of a session's figure about the truth before two cameras, from session to session; 0 where no
+    camera has a part in it. No session tells it by itself (`mirrorlimb experiments measures-trust`).
+    """
 
     @property
     def label_key(self) -> str:

@@ -49,7 +49,7 @@ def change_of(measure: Measure, values: Sequence[SessionValue]) -> Change:
 
     No verdict is given on what the drive did, nor on what these sensors measure poorly.
     """
-    own = minimal_detectable_change(one.sem for one in values)
+    own = minimal_detectable_change((one.sem for one in values), measure.camera_error)
     mdc = own if measure.mdc is None else measure.mdc.value
     if len(values) < 2:
         return Change(None, mdc, Verdict.UNKNOWN)

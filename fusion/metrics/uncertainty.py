@@ -62,11 +62,22 @@ def share_sem(hits: int, tries: int) -> float | None:
     return sqrt(share * (1.0 - share) / tries) if tries >= FEWEST else None
 
 
-def minimal_detectable_change(sems: Iterable[float | None]) -> float | None:
+def minimal_detectable_change(sems: Iterable[float | None], camera_error: float = 0.0) -> float | None:
     """MDC95 = 1.96 √2 SEM: a difference between two sessions that is larger is, 19 times in 20, more than chance.
 
-    SEM is the root mean square of the sessions' own standard errors. They come from within each session, so that what
-    changes from day to day (mood, tiredness, how the sensors stand) is not in them, and the true MDC is larger.
+    SEM² is the mean square of the sessions' own standard errors, and that of the cameras' error from session to session,
+    which no session tells by itself. What changes from day to day (mood, tiredness) is in neither, so the true MDC is larger.
     """
     known = np.array([sem for sem in sems if sem is not None])
-    return Z_95 * sqrt(2.0) * float(np.sqrt((known**2).mean())) if len(known) else None
+    if not len(known):
+        return None
+    return Z_95 * sqrt(2.0 * (float((known**2).mean()) + camera_error**2))
+
+
+def wandering_sem(values: Floats) -> float | None:
+    """Standard error of the mean of values each of which depends on the one before, such as an adapted difficulty: of
+    five batches one after the other; None with fewer than two values in each.
+    """
+    if len(values) < 2 * FEWEST:
+        return None
+    return mean_sem(np.array([batch.mean() for batch in np.array_split(values, FEWEST)]))

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Final
 
 from db.therapy_session import MetricBase, SessionDetail, SessionStatus
 from fusion.metrics.catalogue import MEASURES
 from fusion.metrics.definitions import session as of_session
-from fusion.metrics.measure import Measure
+from fusion.metrics.measure import Better, Measure
 from fusion.metrics.progress import SessionValue, change_of
 from server.api.progress_forms import Progress, ProgressLine, ProgressPoint
 
@@ -34,7 +35,8 @@ def progress_of(history: Sequence[SessionDetail]) -> Progress:
                     _point(one, metric, metric.value)
                 )
     ordered = sorted(points, key=lambda figure: list(MEASURES).index(figure[0]))
-    return Progress(sessions=len(over), lines=[_line(figure, points[figure]) for figure in ordered])
+    affected = over[-1].affected_side if over else ""
+    return Progress(sessions=len(over), lines=[_line(figure, points[figure], affected) for figure in ordered])
 
 
 def _asked(session: SessionDetail) -> list[MetricBase]:
@@ -49,9 +51,9 @@ def _point(session: SessionDetail, metric: MetricBase, value: float) -> Progress
     )
 
 
-def _line(figure: _Figure, points: list[ProgressPoint]) -> ProgressLine:
+def _line(figure: _Figure, points: list[ProgressPoint], affected_side: str) -> ProgressLine:
     name, joint, side = figure
-    measure: Measure = MEASURES[name]
+    measure = _of_side(MEASURES[name], side, affected_side)
     change = change_of(measure, [SessionValue(point.value, point.sem, point.caveat or None) for point in points])
     return ProgressLine(
         name=name,
@@ -68,3 +70,10 @@ def _line(figure: _Figure, points: list[ProgressPoint]) -> ProgressLine:
         mdc_is_published=measure.mdc is not None,
         verdict=change.verdict,
     )
+
+
+def _of_side(measure: Measure, side: str, affected_side: str) -> Measure:
+    """The healthy arm need not get better; the affected one is measured by the exoskeleton, not by cameras."""
+    if not side:
+        return measure
+    return replace(measure, camera_error=0.0) if side == affected_side else replace(measure, better=Better.NEITHER)

@@ -85,6 +85,12 @@ def found_trust(name: str, told: Iterable[Agreement]) -> Trust | None:
     return ORDER[ranks[len(ranks) // 2]] if ranks else None
 
 
+def camera_error(name: str, told: Iterable[Agreement]) -> float | None:
+    """Standard deviation of a measure about the truth, the middle joint's; None where it is in none of them."""
+    limits = sorted(one.limit for one in told if one.name == name)
+    return limits[len(limits) // 2] / Z_95 if limits else None
+
+
 def due_trust(name: str, told: Iterable[Agreement]) -> Trust | None:
     """What the catalogue has to say: the worse of what is found and what is known."""
     found = found_trust(name, told)

@@ -23,6 +23,7 @@ POSTURE = (
         "trust.trunk",
         Better.LESS,
         trust_of_one=Trust.FAIR,
+        camera_error=0.0087,
     ),
     Measure(
         "trunk_displacement_p95",
@@ -33,6 +34,7 @@ POSTURE = (
         "trust.trunk",
         Better.LESS,
         trust_of_one=Trust.FAIR,
+        camera_error=0.013,
     ),
     Measure(
         "shoulder_hitch",
@@ -44,6 +46,7 @@ POSTURE = (
         Better.LESS,
         "first-order low-pass, 0.3 s",
         trust_of_one=Trust.FAIR,
+        camera_error=0.0046,
     ),
     Measure(
         "shoulder_hitch_p95",
@@ -55,14 +58,29 @@ POSTURE = (
         Better.LESS,
         "first-order low-pass, 0.3 s",
         trust_of_one=Trust.FAIR,
+        camera_error=0.0087,
     ),
 )
 RANGES = (
     Measure(
-        "range_lowest", "rad", f"2nd percentile {RANGE}", OURS, Trust.FAIR, "trust.angles", trust_of_one=Trust.FAIR
+        "range_lowest",
+        "rad",
+        f"2nd percentile {RANGE}",
+        OURS,
+        Trust.FAIR,
+        "trust.angles",
+        trust_of_one=Trust.FAIR,
+        camera_error=0.046,
     ),
     Measure(
-        "range_highest", "rad", f"98th percentile {RANGE}", OURS, Trust.FAIR, "trust.angles", trust_of_one=Trust.POOR
+        "range_highest",
+        "rad",
+        f"98th percentile {RANGE}",
+        OURS,
+        Trust.FAIR,
+        "trust.angles",
+        trust_of_one=Trust.POOR,
+        camera_error=0.062,
     ),
     Measure(
         "range_of_movement",
@@ -73,6 +91,7 @@ RANGES = (
         "trust.angles",
         Better.MORE,
         trust_of_one=Trust.POOR,
+        camera_error=0.086,
     ),
 )
 BOTH_ARMS = (
@@ -87,6 +106,7 @@ BOTH_ARMS = (
         Better.MORE,
         STRETCHES,
         trust_of_one=Trust.POOR,
+        camera_error=0.0071,
     ),
     Measure(
         "lag",
@@ -97,6 +117,7 @@ BOTH_ARMS = (
         "trust.symmetry",
         filter=STRETCHES,
         trust_of_one=Trust.POOR,
+        camera_error=0.0077,
     ),
 )
 MEASURES = (*POSTURE, *RANGES, *BOTH_ARMS)

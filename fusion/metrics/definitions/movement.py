@@ -25,6 +25,7 @@ MEASURES = (
         "trust.movement_time",
         filter=HAND_FILTER,
         trust_of_one=Trust.POOR,
+        camera_error=0.036,
     ),
     Measure(
         "peak_speed",
@@ -35,6 +36,7 @@ MEASURES = (
         "trust.peak_speed",
         filter=HAND_FILTER,
         trust_of_one=Trust.POOR,
+        camera_error=0.057,
     ),
     Measure(
         "mean_speed",
@@ -45,6 +47,7 @@ MEASURES = (
         "trust.mean_speed",
         filter=HAND_FILTER,
         trust_of_one=Trust.FAIR,
+        camera_error=0.044,
     ),
     Measure(
         "path_ratio",
@@ -55,6 +58,7 @@ MEASURES = (
         "trust.path_ratio",
         filter=HAND_FILTER,
         trust_of_one=Trust.FAIR,
+        camera_error=0.036,
     ),
     Measure(
         "sparc",
@@ -66,6 +70,7 @@ MEASURES = (
         "trust.sparc",
         filter=HAND_FILTER,
         trust_of_one=Trust.FAIR,
+        camera_error=0.053,
     ),
     Measure(
         "velocity_peaks",
@@ -77,5 +82,6 @@ MEASURES = (
         "trust.velocity_peaks",
         filter=HAND_FILTER,
         trust_of_one=Trust.POOR,
+        camera_error=0.26,
     ),
 )

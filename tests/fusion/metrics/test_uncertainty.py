@@ -18,6 +18,7 @@ from fusion.metrics.uncertainty import (
     mean_sem,
     minimal_detectable_change,
     share_sem,
+    wandering_sem,
 )
 
 sems = st.floats(1e-6, 1e3)
@@ -67,6 +68,22 @@ def test_equal_errors_give_the_textbooks_detectable_change(sem: float, sessions:
 @given(known=st.lists(sems, min_size=1))
 def test_sessions_without_an_error_change_nothing(known: list[float]) -> None:
     assert minimal_detectable_change([None, *known, None]) == minimal_detectable_change(known)
+
+
+def test_the_cameras_error_adds_to_what_the_sessions_tell() -> None:
+    alone = minimal_detectable_change([0.3, 0.3])
+    assert minimal_detectable_change([0.3, 0.3], camera_error=0.4) == pytest.approx(1.96 * sqrt(2) * 0.5)
+    assert alone == pytest.approx(1.96 * sqrt(2) * 0.3)
+    assert minimal_detectable_change([None], camera_error=0.4) is None
+
+
+def test_a_value_that_wanders_is_less_sure_than_one_that_does_not() -> None:
+    rng = np.random.default_rng(9)
+    wandering = np.cumsum(rng.normal(size=(200, 40)), axis=1) / 6.0
+    told = np.array([wandering_sem(walk) for walk in wandering])
+    plain = np.array([mean_sem(walk) for walk in wandering])
+    assert np.median(told / plain) > 1.8
+    assert wandering_sem(np.ones(2 * FEWEST - 1)) is None
 
 
 def test_nothing_known_nothing_detectable() -> None:

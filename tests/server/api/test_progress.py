@@ -63,6 +63,17 @@ def test_what_the_drive_did_is_not_judged(therapist, new_patient, measured):
     assert line["points"][0]["caveat"] == "caveat.passive_drive"
 
 
+def test_the_healthy_arm_gets_neither_better_nor_worse_and_the_cameras_error_counts(therapist, new_patient, measured):
+    patient = new_patient("Shen")
+    for day, value in ((1, 0.5), (3, 1.5)):
+        sides = [own_range(value, name="range_of_movement", side=side) for side in ("left", "right")]
+        measured(patient, day, *sides)
+    lines = lines_of(therapist, patient)
+    affected, healthy = (lines["range_of_movement", "elbow", side] for side in ("left", "right"))
+    assert (affected["verdict"], healthy["verdict"]) == ("better", "changed")
+    assert healthy["mdc"] > affected["mdc"] == pytest.approx(1.96 * 2**0.5 * 0.05)
+
+
 def test_pain_is_a_line_of_its_own(therapist, new_patient, measured):
     patient = new_patient("Deng")
     measured(patient, 1, pain_before=5, pain_after=4)
