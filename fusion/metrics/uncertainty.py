@@ -65,8 +65,9 @@ def share_sem(hits: int, tries: int) -> float | None:
 def minimal_detectable_change(sems: Iterable[float | None], camera_error: float = 0.0) -> float | None:
     """MDC95 = 1.96 √2 SEM: a difference between two sessions that is larger is, 19 times in 20, more than chance.
 
-    SEM² is the mean square of the sessions' own standard errors, and that of the cameras' error from session to session,
-    which no session tells by itself. What changes from day to day (mood, tiredness) is in neither, so the true MDC is larger.
+    SEM² is the mean square of the sessions' own standard errors, and that of the cameras' error from session to
+    session, which no session tells by itself. What changes from day to day (mood, tiredness) is in neither, so the true
+    MDC is larger.
     """
     known = np.array([sem for sem in sems if sem is not None])
     if not len(known):
