@@ -13,7 +13,7 @@ import {
 import { glowTexture } from "../../textures";
 import { wingGeometry } from "./wings";
 
-export const COLORS = ["#3d9bff", "#ff9a2e", "#ffe04a", "#c98bff"].map((color) => new Color(color));
+const COLORS = ["#3d9bff", "#ff9a2e", "#ffe04a", "#c98bff"].map((color) => new Color(color));
 const BODY = new Color("#1a1420");
 /** So far it is tipped towards the eyes, or its wings would be seen edge on. */
 const TIPPED_RAD = 0.75;
@@ -34,8 +34,12 @@ export class Butterfly {
 
   /** `number` says which of the colours. */
   constructor(number: number) {
-    const color = COLORS[Math.abs(number) % COLORS.length] ?? BODY;
-    this.wings = new MeshBasicMaterial({ vertexColors: true, color, side: DoubleSide, transparent: true });
+    this.wings = new MeshBasicMaterial({
+      vertexColors: true,
+      color: colorOf(number),
+      side: DoubleSide,
+      transparent: true,
+    });
     const geometry = wingGeometry();
     this.right = new Mesh(geometry, this.wings);
     this.left = new Mesh(geometry, this.wings);
@@ -75,6 +79,11 @@ export class Butterfly {
     this.wings.opacity = there;
     this.glow.material.opacity = 0.75 * there;
   }
+}
+
+/** The colour of the butterfly of that number. */
+export function colorOf(number: number): Color {
+  return COLORS[Math.abs(number) % COLORS.length] ?? BODY;
 }
 
 function feeler(side: number): Mesh {

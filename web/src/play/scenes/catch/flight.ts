@@ -17,6 +17,11 @@ const LEAVING_M_S = new Vector3(0.35, 0.42, -0.9);
 const BOB_M = 0.035;
 const SHADOW_OPACITY = 0.4;
 
+/** The number of the butterfly that a thing belongs to: the rules give each two things, itself and its place. */
+export function numberOf(id: number): number {
+  return Math.ceil(id / 2);
+}
+
 export class Flight {
   readonly group = new Group();
   private readonly butterfly: Butterfly;
@@ -30,7 +35,7 @@ export class Flight {
   private leaving_s: number | null = null;
 
   constructor(private view: ThingView) {
-    this.butterfly = new Butterfly(view.id >> 1);
+    this.butterfly = new Butterfly(numberOf(view.id));
     this.size_m = Math.max(LEAST_WING_M, WING_SHARE * view.radius_m);
     this.butterfly.group.scale.setScalar(this.size_m);
     this.shadow.renderOrder = -2;

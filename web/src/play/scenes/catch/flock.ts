@@ -1,11 +1,11 @@
 // The butterflies that were caught: each sits on the hand for a moment, then joins the others over the valley.
 import { Color, DoubleSide, Group, InstancedMesh, Matrix4, MeshBasicMaterial, Quaternion, Vector3 } from "three";
 import type { Moment } from "../../scene";
-import { COLORS } from "./butterfly";
+import { colorOf } from "./butterfly";
 import { ON_HAND_M } from "./flight";
 import { wingGeometry } from "./wings";
 
-const MOST = 40;
+export const MOST = 40;
 const SITS_S = 0.9;
 const FLIES_S = 3;
 const ON_HAND_SIZE_M = 0.075;
@@ -16,6 +16,12 @@ const AHEAD = new Vector3(0, 0, 1);
 /** Steps that never fall into a visible pattern (golden ratio and √2 less their whole parts). */
 const SPREAD_X = 0.618;
 const SPREAD_Z = 0.414;
+
+/** A butterfly that was just caught: where, and what number it had. */
+export interface Caught {
+  readonly place: Vector3;
+  readonly number: number;
+}
 
 interface Friend {
   readonly from: Vector3;
@@ -35,18 +41,19 @@ export class Flock {
     for (const one of this.wings) {
       one.frustumCulled = false;
       one.count = 0;
-      for (let i = 0; i < MOST; i++) one.setColorAt(i, COLORS[i % COLORS.length] ?? new Color());
+      for (let i = 0; i < MOST; i++) one.setColorAt(i, new Color());
       this.group.add(one);
     }
   }
 
-  /** Lets so many be there; a new one sets out `from` the hand that caught it. */
-  hold(count: number, from: Vector3 | null): void {
+  /** Lets so many be there; a new one sets out from the hand that `caught` it. */
+  hold(count: number, caught: Caught | null): void {
     const wanted = Math.min(count, MOST);
     if (this.friends.length > wanted) this.friends.length = wanted;
     while (this.friends.length < wanted) {
       const home = homeOf(this.friends.length);
-      this.friends.push({ from: from ?? home, home, age_s: from ? 0 : SITS_S + FLIES_S });
+      this.tint(this.friends.length, caught?.number ?? this.friends.length);
+      this.friends.push({ from: caught?.place.clone() ?? home, home, age_s: caught ? 0 : SITS_S + FLIES_S });
     }
   }
 
@@ -60,6 +67,13 @@ export class Flock {
     for (const one of this.wings) {
       one.count = this.friends.length;
       one.instanceMatrix.needsUpdate = true;
+    }
+  }
+
+  private tint(i: number, number: number): void {
+    for (const one of this.wings) {
+      one.setColorAt(i, colorOf(number));
+      if (one.instanceColor) one.instanceColor.needsUpdate = true;
     }
   }
 
@@ -87,7 +101,7 @@ function placeOf({ from, home }: Friend, i: number, eased: number, now_s: number
 }
 
 /** Over the blossom beyond the terrace, spread so that none hides another. */
-function homeOf(i: number): Vector3 {
+export function homeOf(i: number): Vector3 {
   const away_m = 2.6 + 3.6 * ((0.2 + i * SPREAD_Z) % 1);
   const across = ((0.25 + i * SPREAD_X) % 1) * 2 - 1;
   return new Vector3(across * away_m * 0.95, 0.3 - 0.26 * away_m * (0.35 + 0.4 * ((i * 0.73) % 1)), -away_m);

@@ -4,7 +4,7 @@ import type { Changes, GameView, ThingView } from "../../changes";
 import { dispose } from "../../dispose";
 import type { GameScene, Moment } from "../../scene";
 import { tone } from "../../sound";
-import { Flight } from "./flight";
+import { Flight, numberOf } from "./flight";
 import { Flock } from "./flock";
 import { Landing } from "./landing";
 import { Petals } from "./petals";
@@ -25,7 +25,7 @@ export class Terrace implements GameScene {
   show(view: GameView, changes: Changes): readonly Vector3[] {
     const caught = changes.hits > 0 ? changes.gone.find((thing) => thing.kind === "place") : undefined;
     const place = caught ? new Vector3(...caught.position) : null;
-    this.flock.hold(view.hits, place?.clone() ?? null);
+    this.flock.hold(view.hits, caught && place ? { place, number: numberOf(caught.id) } : null);
     this.fly(
       view.things.filter((thing) => thing.kind === "butterfly"),
       place !== null,

@@ -143,7 +143,9 @@ function rail(): BufferGeometry[] {
 /** Square slabs: each joint is a step of distance. */
 function stones(): Mesh {
   const depth_m = NEAR_Z - FAR_Z;
-  const top = new MeshBasicMaterial({ map: slabs((2 * HALF_WIDTH_M) / SLAB_M, depth_m / SLAB_M) });
+  const map = slabs((2 * HALF_WIDTH_M) / SLAB_M, depth_m / SLAB_M);
+  const top = new MeshBasicMaterial({ map });
+  top.addEventListener("dispose", () => map.dispose());
   const side = new MeshBasicMaterial({ color: new Color("#857b6e") });
   const mesh = new Mesh(new BoxGeometry(2 * HALF_WIDTH_M, 0.06, depth_m), [side, side, top, side, side, side]);
   mesh.position.set(0, TABLE_Y - 0.03, (NEAR_Z + FAR_Z) / 2);

@@ -22,8 +22,8 @@ export class LevelBar {
   readonly group = new Group();
   private readonly paint = new MeshBasicMaterial({ color: EVEN, transparent: true, opacity: 0.95, depthWrite: false });
   private readonly bar = new Mesh(new PlaneGeometry(1, 1).rotateX(-Math.PI / 2), this.paint);
-  private readonly diamond = new Mesh(new CircleGeometry(0.042, 4).rotateX(-Math.PI / 2), this.paint);
-  private readonly arrow = new Mesh(arrowShape(), this.paint);
+  readonly diamond = new Mesh(new CircleGeometry(0.042, 4).rotateX(-Math.PI / 2), this.paint);
+  readonly arrow = new Mesh(arrowShape(), this.paint);
 
   constructor() {
     for (const part of [this.bar, this.diamond, this.arrow]) part.renderOrder = -1;

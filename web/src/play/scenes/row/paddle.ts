@@ -27,9 +27,9 @@ export class Paddle {
     this.group.add(this.shaft, this.blade);
   }
 
-  /** Where the blade enters the water, or would. */
-  get wet(): Vector3 {
-    return new Vector3(this.blade.position.x, WATER_Y, this.blade.position.z);
+  /** Where the blade is. */
+  get tip(): Vector3 {
+    return this.blade.position;
   }
 
   /** Whether the blade is in the water. */

@@ -60,7 +60,8 @@ export class Voyage implements GameScene {
   show(view: GameView, changes: Changes): readonly Vector3[] {
     this.things = view.things;
     this.aim = view.aim ? new Vector3(-view.aim[0], view.aim[1], view.aim[2]) : null;
-    return changes.hits > 0 ? this.lotus.open() : [];
+    const opened = changes.hits > 0 ? this.lotus.open() : [];
+    return opened.map((place) => place.applyEuler(this.water.rotation));
   }
 
   animate(moment: Moment): void {
@@ -106,7 +107,7 @@ export class Voyage implements GameScene {
     const was = paddle.isDipped;
     paddle.animate(dt_s, hand, pulls);
     if (!paddle.isDipped || !hand) return;
-    if (!was) this.spray.enter(paddle.wet);
-    if (!still) this.spray.pull(paddle.wet, dt_s / 2);
+    if (!was) this.spray.enter(paddle.tip);
+    if (!still) this.spray.pull(paddle.tip, dt_s / 2);
   }
 }
