@@ -3,7 +3,7 @@ import { t } from "../../strings";
 import { hrefOf, type Route } from "../route";
 import "./tabs.css";
 
-const PAGES = ["patient", "plan", "progress", "scores", "course-report"] as const;
+const PAGES = ["patient", "plan", "progress", "scores", "course-report"] as const satisfies readonly Route["page"][];
 type PatientPageName = (typeof PAGES)[number];
 
 export function PatientTabs({ id, at }: { id: number; at: PatientPageName }) {

@@ -1,4 +1,5 @@
 // What is played in a session, in order: added, moved, taken out, and how hard each game is.
+import { useRef } from "preact/hooks";
 import { t } from "../../strings";
 import { gameAim, gameName } from "../game-name";
 import { NumberField, numberIn } from "../number-field";
@@ -13,15 +14,22 @@ interface Props {
 }
 
 export function ExerciseFields({ exercises, games, onChange }: Props) {
+  const heading = useRef<HTMLHeadingElement>(null);
   const replace = (index: number, part: Partial<ExerciseDraft>) =>
     onChange(exercises.map((one, at) => (at === index ? { ...one, ...part } : one)));
   const add = (game: string) => {
     const key = 1 + Math.max(-1, ...exercises.map((one) => one.key));
     onChange([...exercises, exerciseDraft(key, { game, minutes: FIRST_MINUTES, level: null, pinned: false })]);
   };
+  const remove = (index: number) => {
+    onChange(exercises.filter((_, at) => at !== index));
+    heading.current?.focus(); // the button that was pressed goes with its row: the keyboard begins the list again
+  };
   return (
     <section class="card">
-      <h2>{t("plan.session")}</h2>
+      <h2 ref={heading} tabIndex={-1}>
+        {t("plan.session")}
+      </h2>
       {exercises.length === 0 && <p class="caveat">⚠ {t("plan.session.empty")}</p>}
       <ol class="plan-exercises">
         {exercises.map((exercise, index) => (
@@ -32,7 +40,7 @@ export function ExerciseFields({ exercises, games, onChange }: Props) {
               onChange={(part) => replace(index, part)}
               onMove={(by) => onChange(moved(exercises, index, by))}
               isLast={index === exercises.length - 1}
-              onRemove={() => onChange(exercises.filter((_, at) => at !== index))}
+              onRemove={() => remove(index)}
             />
           </li>
         ))}

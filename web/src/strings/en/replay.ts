@@ -15,8 +15,6 @@ export const replay = {
   "replay.before": "Event before",
   "replay.after": "Next event",
   "replay.line": "What happened when",
-  "replay.lane.state": "Arm",
-  "replay.lane.events": "Events",
   "replay.events": "Events",
   "replay.events.none": "No event was marked.",
   "replay.mark.hit": "Hit",

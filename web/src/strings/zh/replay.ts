@@ -17,8 +17,6 @@ export const replay: Record<keyof typeof english, string> = {
   "replay.before": "上一事件",
   "replay.after": "下一事件",
   "replay.line": "时间轴",
-  "replay.lane.state": "手臂",
-  "replay.lane.events": "事件",
   "replay.events": "事件",
   "replay.events.none": "没有标记的事件。",
   "replay.mark.hit": "命中",
