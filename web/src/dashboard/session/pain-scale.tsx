@@ -10,7 +10,7 @@ interface Props {
 
 export function PainScale({ value, onChange }: Props) {
   return (
-    <div>
+    <div class="scale-place">
       <fieldset class="scale" aria-label={t("pain.label")}>
         {LEVELS.map((level) => (
           <button
