@@ -2,7 +2,16 @@
 import type { Metric, Side } from "../../api/types";
 import { t } from "../../strings";
 import { JointTable, RangeTable } from "./joint-tables";
-import { amountOf, caveatOf, explanationOf, fullNameOf, type Group, grouped, identityOf } from "./metrics";
+import {
+  amountOf,
+  caveatOf,
+  explanationOf,
+  fullNameOf,
+  type Group,
+  grouped,
+  identityOf,
+  sharedCaveatsOf,
+} from "./metrics";
 
 interface Props {
   metrics: readonly Metric[];
@@ -29,24 +38,38 @@ export function Figures({ metrics, measured, affectedSide }: Props) {
 function GroupFigures({ group, affectedSide }: { group: Group; affectedSide: Side }) {
   if (group.id === "range") return <RangeTable metrics={group.metrics} affectedSide={affectedSide} />;
   if (group.byJoint) return <JointTable metrics={group.metrics} />;
+  const shared = sharedCaveatsOf(group.metrics);
   return (
     <div class="figures">
       {group.metrics.map((metric) => (
-        <Figure key={identityOf(metric)} metric={metric} />
+        <Figure key={identityOf(metric)} metric={metric} shared={shared} />
+      ))}
+      {shared.map((caveat, index) => (
+        <p class="figure-note caveat" key={caveat}>
+          {signOf(index)} {caveat}
+        </p>
       ))}
     </div>
   );
 }
 
-function Figure({ metric }: { metric: Metric }) {
+/** A figure; a caveat that others share is said once below them all. */
+function Figure({ metric, shared }: { metric: Metric; shared: readonly string[] }) {
   const explanation = explanationOf(metric);
   const caveat = caveatOf(metric);
+  const index = shared.indexOf(caveat);
   return (
     <div class="figure" data-testid="metric-row" data-metric={metric.name}>
-      <span>{fullNameOf(metric)}</span>
+      <span>
+        {fullNameOf(metric)} {index >= 0 && <span class="caveat">{signOf(index)}</span>}
+      </span>
       <span class="figure-value">{amountOf(metric)}</span>
       {explanation && <span class="figure-note">{explanation}</span>}
-      {caveat && <span class="figure-note caveat">⚠ {caveat}</span>}
+      {caveat && index < 0 && <span class="figure-note caveat">⚠ {caveat}</span>}
     </div>
   );
+}
+
+function signOf(index: number): string {
+  return `⚠${index + 1}`;
 }

@@ -1,7 +1,7 @@
 import { describe, expect, test } from "vitest";
 import type { Metric } from "../../api/types";
 import { keyMetrics } from "./key-metrics";
-import { amountOf, caveatsOf, fullNameOf, grouped } from "./metrics";
+import { amountOf, caveatsOf, fullNameOf, grouped, sharedCaveatsOf } from "./metrics";
 
 const metric = (name: string, value: number | null, unit = "1", rest: Partial<Metric> = {}): Metric => ({
   name,
@@ -58,6 +58,13 @@ describe("the groups", () => {
   test("say a caveat once", () => {
     const caveat = "caveat.passive_drive";
     expect(caveatsOf([metric("lag", 1, "s", { caveat }), metric("symmetry", 1, "1", { caveat })])).toHaveLength(1);
+  });
+
+  test("share a caveat that more than one of them has", () => {
+    const slow = ["movements", "movement_time"].map((name) => metric(name, 1, "1", { caveat: "caveat.slow" }));
+    const alone = metric("sparc", -2, "1", { caveat: "caveat.sensor_noise" });
+    expect(sharedCaveatsOf([...slow, alone])).toEqual([caveatsOf(slow)[0]]);
+    expect(sharedCaveatsOf([alone, metric("help", 1), metric("help_allowed", 1)])).toEqual([]);
   });
 });
 

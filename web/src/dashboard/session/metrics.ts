@@ -62,6 +62,12 @@ export function caveatsOf(metrics: readonly Metric[]): string[] {
   return [...new Set(metrics.map(caveatOf).filter(Boolean))];
 }
 
+/** What must be said beside more than one of the figures. */
+export function sharedCaveatsOf(metrics: readonly Metric[]): string[] {
+  const said = metrics.map(caveatOf);
+  return caveatsOf(metrics).filter((caveat) => said.indexOf(caveat) !== said.lastIndexOf(caveat));
+}
+
 export function translatedOr(key: string, otherwise: string): string {
   return isKey(key) ? t(key) : otherwise;
 }
