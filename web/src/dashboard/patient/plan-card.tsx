@@ -2,8 +2,8 @@
 import { readAdherence, readPlan } from "../../api/client";
 import type { Plan } from "../../api/types";
 import { t } from "../../strings";
+import { gameName } from "../../strings/games";
 import { figure } from "../format";
-import { gameName } from "../game-name";
 import { useAsked } from "../hooks";
 import { sumOf } from "../plan/draft";
 import { ProblemBox } from "../problem";

@@ -1,7 +1,7 @@
 // What is played in a session, in order: added, moved, taken out, and how hard each game is.
 import { useRef } from "preact/hooks";
 import { t } from "../../strings";
-import { gameAim, gameName } from "../game-name";
+import { gameAim, gameName } from "../../strings/games";
 import { NumberField, numberIn } from "../number-field";
 import { type ExerciseDraft, exerciseDraft, MOST_EXERCISES, MOST_MINUTES, moved, WAYS, type Way } from "./draft";
 

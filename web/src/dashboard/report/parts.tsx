@@ -2,8 +2,8 @@
 import type { ComponentChildren } from "preact";
 import { JOINTS, type ProgressLine, type Score, type SessionDetail, type Side } from "../../api/types";
 import { t } from "../../strings";
+import { gameName } from "../../strings/games";
 import { angleText, dateText, figure } from "../format";
-import { gameName } from "../game-name";
 import { RangePicture } from "../patient/range-picture";
 import { RangeKey, sectorsOf } from "../progress/arm-ranges";
 import { type Ranges, rangesOf, widthOf } from "../progress/ranges";

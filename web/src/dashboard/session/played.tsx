@@ -1,8 +1,8 @@
 // What was played: each game with its score, how often it succeeded, and how hard it was at its end.
 import type { SessionDetail } from "../../api/types";
 import { t } from "../../strings";
+import { gameName } from "../../strings/games";
 import { duration, figure } from "../format";
-import { gameName } from "../game-name";
 import { successOf } from "../live/game/wishes";
 import { Scroll } from "../scroll";
 

@@ -1,7 +1,7 @@
 // The exercises of one session: which game, for how long, in which order.
 import type { Exercise } from "../../api/types";
 import { t } from "../../strings";
-import { gameName } from "../game-name";
+import { gameName } from "../../strings/games";
 import "./programme.css";
 
 const LEAST_MIN = 1;

@@ -2,8 +2,8 @@
 import { readCurves, readEvents, readSession } from "../../api/client";
 import type { SessionDetail } from "../../api/types";
 import { t } from "../../strings";
+import { gameName } from "../../strings/games";
 import { dateAndTime, duration, figure, secondsBetween } from "../format";
-import { gameName } from "../game-name";
 import { useAsked } from "../hooks";
 import { ProblemBox } from "../problem";
 import { Afterwards } from "./afterwards";

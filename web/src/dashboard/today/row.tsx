@@ -1,8 +1,8 @@
 // One patient on the list of today: what is planned, what is missing, and the button that starts.
 import { otherSide, type PatientToday } from "../../api/types";
 import { t } from "../../strings";
+import { gameName } from "../../strings/games";
 import { dateText, figure } from "../format";
-import { gameName } from "../game-name";
 import { hrefOf } from "../route";
 
 export function PatientRow({ row }: { row: PatientToday }) {

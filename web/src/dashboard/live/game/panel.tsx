@@ -2,8 +2,8 @@
 import { wishOfGame } from "../../../api/client";
 import type { GameView, GameWish } from "../../../api/types";
 import { t } from "../../../strings";
+import { gameName } from "../../../strings/games";
 import { duration } from "../../format";
-import { gameName } from "../../game-name";
 import { useDoing } from "../../hooks";
 import { ProblemBox } from "../../problem";
 import type { Charge } from "../charge";
