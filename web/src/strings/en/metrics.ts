@@ -100,9 +100,6 @@ export const metrics = {
   "caveat.slow":
     "The movements were so slow that the sensors' noise breaks them up: compare only sessions that were as slow.",
   "caveat.one_sensor": "Seen by one camera alone: what it could not see was guessed. Use two.",
-  "trust.good": "Good",
-  "trust.fair": "Fair",
-  "trust.poor": "Poor",
   "trust.exact": "Counted or timed by the system itself.",
   "trust.asked": "What the patient said.",
   "trust.encoder": "The exoskeleton's own angle sensors; the arm is carried meanwhile.",

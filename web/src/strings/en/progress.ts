@@ -25,7 +25,7 @@ export const progress = {
   "progress.verdict.poor.short": "nothing: measured poorly",
   "progress.trust": "Trust: {word}.",
   "progress.mdc.own":
-    "The band comes from how much this patient's own sessions vary within themselves; from day to day it may be wider.",
+    "The band comes from how much this patient's sessions vary within themselves and how far the cameras err; from day to day it may be wider.",
   "progress.mdc.published": "The band is a published one.",
   "trust.good": "good",
   "trust.fair": "fair",

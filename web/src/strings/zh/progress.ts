@@ -25,7 +25,7 @@ export const progress: Record<keyof typeof english, string> = {
   "progress.verdict.driven.short": "不判断：由驱动带动",
   "progress.verdict.poor.short": "不判断：测量不可靠",
   "progress.trust": "可信度：{word}。",
-  "progress.mdc.own": "该范围来自患者每次治疗内部的波动；不同日期之间可能更大。",
+  "progress.mdc.own": "该范围来自患者每次治疗内部的波动与相机误差；不同日期之间可能更大。",
   "progress.mdc.published": "该范围来自已发表的文献。",
   "trust.good": "好",
   "trust.fair": "一般",
