@@ -62,6 +62,7 @@ function Live({ session, feed, account }: Props & { session: Session }) {
   const alsoListenIn = useStopKey(wishes.stop.press);
   return (
     <main class={isLost ? "live live-lost" : "live"} data-testid="live">
+      <h1 class="spoken">{t("live.title", { name: session.patient_name })}</h1>
       <StateBanner feed={feed}>
         <Controls feed={feed} charge={charge} wishes={wishes} />
         <Authority feed={feed} charge={charge} session={session.id} account={account} />

@@ -2,6 +2,7 @@
 import type { SessionEvent } from "../../api/types";
 import { isKey, t } from "../../strings";
 import { clockTime, figure, sentence } from "../format";
+import { Scroll } from "../scroll";
 import { translatedOr } from "./metrics";
 
 export function EventList({ events }: { events: readonly SessionEvent[] }) {
@@ -9,7 +10,7 @@ export function EventList({ events }: { events: readonly SessionEvent[] }) {
     <section class="card">
       <h2>{t("events.title")}</h2>
       {events.length === 0 && <p class="soft">{t("events.none")}</p>}
-      <div class="table-scroll events">
+      <Scroll label={t("events.title")} look="events">
         <table>
           <tbody>
             {events.map((event) => (
@@ -21,7 +22,7 @@ export function EventList({ events }: { events: readonly SessionEvent[] }) {
             ))}
           </tbody>
         </table>
-      </div>
+      </Scroll>
     </section>
   );
 }

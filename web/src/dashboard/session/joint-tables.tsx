@@ -1,6 +1,7 @@
 // Figures that there are per joint, or per sensor, as tables.
 import { type Metric, otherSide, type Side } from "../../api/types";
 import { t } from "../../strings";
+import { Scroll } from "../scroll";
 import { amountOf, caveatsOf, explanationOf, jointOf, nameOf } from "./metrics";
 
 /** A row per joint, a column per figure. */
@@ -8,11 +9,11 @@ export function JointTable({ metrics }: { metrics: readonly Metric[] }) {
   const columns = firstOfEach(metrics, (metric) => metric.name);
   return (
     <>
-      <div class="table-scroll">
+      <Scroll label={columns.map(nameOf).join(", ")}>
         <table>
           <thead>
             <tr>
-              <th />
+              <td />
               {columns.map((metric) => (
                 <th class="number" key={metric.name}>
                   {nameOf(metric)}
@@ -33,7 +34,7 @@ export function JointTable({ metrics }: { metrics: readonly Metric[] }) {
             ))}
           </tbody>
         </table>
-      </div>
+      </Scroll>
       {columns.map(explanationOf).map(
         (text) =>
           text && (
@@ -56,7 +57,7 @@ export function RangeTable({ metrics, affectedSide }: { metrics: readonly Metric
       <table>
         <thead>
           <tr>
-            <th />
+            <td />
             <th class="number">{t("arm.healthy")}</th>
             <th class="number">{t("arm.affected")}</th>
           </tr>

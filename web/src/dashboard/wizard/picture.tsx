@@ -44,8 +44,11 @@ function Body({ step, facts, feed }: Props) {
     <>
       <BodyPicture feed={feed} affected={facts.affectedSide} withSensors={withSensors} withTrail={withTrail} />
       <figcaption class="small soft">
-        <span class="key">{t("arm.healthy.short")}</span>{" "}
-        <span class="key key-affected">{t("arm.affected.short")}</span> {t(`wizard.picture.${words}`)}
+        <div class="row">
+          <span class="key">{t("arm.healthy")}</span>
+          <span class="key key-affected">{t("arm.affected")}</span>
+        </div>
+        {t(`wizard.picture.${words}`)}
       </figcaption>
     </>
   );

@@ -1,5 +1,6 @@
 // Which arm, how much it hurts, and what is done today.
 import { listGames } from "../../api/client";
+import type { Side } from "../../api/types";
 import { t } from "../../strings";
 import { useAsked } from "../hooks";
 import { ProblemBox } from "../problem";
@@ -11,7 +12,7 @@ import { SideQuestion } from "../session/side-question";
 import type { StepProps } from "./step-view";
 
 export function ArmStep({ patient, plan, session, answers, answer }: StepProps) {
-  if (session) return <p>{t("wizard.arm.fixed", { arm: t(`prepare.side.${session.affected_side}`) })}</p>;
+  if (session) return <Fixed side={session.affected_side} />;
   return (
     <>
       <SideQuestion patient={patient} side={answers.side} onChoose={(side) => answer({ side })} />
@@ -31,6 +32,20 @@ export function ArmStep({ patient, plan, session, answers, answer }: StepProps) 
   );
 }
 
+/** An open session keeps its side and its programme. */
+function Fixed({ side }: { side: Side }) {
+  return (
+    <>
+      <p>{t("wizard.arm.fixed", { arm: t(`prepare.side.${side}`) })}</p>
+      <div class="row">
+        <a class="button" href={hrefOf({ page: "live" })}>
+          {t("session.go-on")}
+        </a>
+      </div>
+    </>
+  );
+}
+
 function Today({ plan, patient, answers, answer }: Pick<StepProps, "plan" | "patient" | "answers" | "answer">) {
   const games = useAsked(listGames, "games");
   return (
@@ -38,7 +53,9 @@ function Today({ plan, patient, answers, answer }: Pick<StepProps, "plan" | "pat
       <h3>{t("programme.title")}</h3>
       <p class="soft small">
         {t(plan ? "programme.planned" : "programme.unplanned")}{" "}
-        <a href={hrefOf({ page: "plan", id: patient.id })}>{t(plan ? "programme.plan" : "programme.make")}</a>
+        <a class="wizard-link" href={hrefOf({ page: "plan", id: patient.id })}>
+          {t(plan ? "programme.plan" : "programme.make")}
+        </a>
       </p>
       <Programme
         games={games.value?.map(({ name }) => name) ?? []}

@@ -7,11 +7,12 @@ import type { StepProps } from "./step-view";
 
 export function ReadyStep({ feed, session }: StepProps) {
   const blockers = useFromFeed(feed, 4, ({ newest }) => newest?.tick.blockers.join("\n") ?? "");
+  const screens = useFromFeed(feed, 2, ({ newest }) => newest?.session?.patient_screens ?? 0);
   if (!session) return <p>{t("wizard.ready.first")}</p>;
   return (
     <>
       {blockers ? <Blocked blockers={blockers.split("\n")} /> : <p class="wizard-fine">✓ {t("wizard.ready.press")}</p>}
-      <p>{t("wizard.ready.screen")}</p>
+      <p>{t(screens > 0 ? "wizard.ready.screen.there" : "wizard.ready.screen")}</p>
       <div class="row">
         <PlayLink />
       </div>

@@ -43,7 +43,7 @@ const VIEWS: Record<Step, (props: StepProps) => ComponentChildren> = {
 export function StepView({ step, ...props }: StepProps & { step: Step }) {
   return (
     <>
-      <h2>{t(`wizard.${step}.title`)}</h2>
+      <h2 aria-live="polite">{t(`wizard.${step}.title`)}</h2>
       {VIEWS[step](props)}
     </>
   );

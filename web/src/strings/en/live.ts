@@ -1,5 +1,6 @@
 // The live session.
 export const live = {
+  "live.title": "Live session with {name}",
   "live.none": "No session is open",
   "live.none.what": "Choose a patient and open a session there.",
   "live.view3d": "3-D view of sensors, body and exoskeleton",

@@ -9,8 +9,8 @@ export const wizard = {
   "wizard.picture": "Live picture",
   "wizard.picture.nobody": "Nobody is seen yet.",
   "wizard.picture.body": "The patient's body as the sensors see it, from behind",
-  "wizard.picture.behind": "· seen from behind: left is the patient's left.",
-  "wizard.picture.seen": "· thin lines: what each sensor sees. They should lie on the body.",
+  "wizard.picture.behind": "Seen from behind: left is the patient's left.",
+  "wizard.picture.seen": "Thin lines: what each sensor sees. They should lie on the body.",
   "wizard.picture.room": "The room from above: the sensors, and people by letters.",
   "wizard.sensors": "Sensors",
   "wizard.sensors.title": "Do the sensors see?",
@@ -92,5 +92,6 @@ export const wizard = {
   "wizard.range.source.last": "The games go by the last session's range.",
   "wizard.range.source.limits": "Nothing has been measured yet: the games use the whole range that the limits allow.",
   "wizard.range.pushed": "The last session went well, so they ask for a little more.",
-  "wizard.picture.trail": "· the pale spots: where the healthy hand has been.",
+  "wizard.picture.trail": "Pale spots: where the healthy hand has been.",
+  "wizard.ready.screen.there": "✓ The patient's screen is connected.",
 } as const;

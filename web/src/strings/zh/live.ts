@@ -2,6 +2,7 @@
 import type { live as english } from "../en/live";
 
 export const live: Record<keyof typeof english, string> = {
+  "live.title": "{name} 的当前治疗",
   "live.none": "当前没有治疗",
   "live.none.what": "请选择一位患者并开始治疗。",
   "live.view3d": "传感器、身体与外骨骼的三维视图",

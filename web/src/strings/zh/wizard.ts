@@ -11,8 +11,8 @@ export const wizard: Record<keyof typeof english, string> = {
   "wizard.picture": "实时画面",
   "wizard.picture.nobody": "尚未看到任何人。",
   "wizard.picture.body": "传感器看到的患者身体（背面视角）",
-  "wizard.picture.behind": "· 背面视角：左即患者的左侧。",
-  "wizard.picture.seen": "· 细线为各传感器所见，应与身体重合。",
+  "wizard.picture.behind": "背面视角：左即患者的左侧。",
+  "wizard.picture.seen": "细线为各传感器所见，应与身体重合。",
   "wizard.picture.room": "房间俯视图：传感器，以及以字母标出的人。",
   "wizard.sensors": "传感器",
   "wizard.sensors.title": "传感器看得到吗？",
@@ -90,5 +90,6 @@ export const wizard: Record<keyof typeof english, string> = {
   "wizard.range.source.last": "游戏沿用上次治疗的范围。",
   "wizard.range.source.limits": "尚未测量：游戏使用限值允许的全部范围。",
   "wizard.range.pushed": "上次治疗完成得很好，因此要求略有增加。",
-  "wizard.picture.trail": "· 浅色点：健侧手到过的位置。",
+  "wizard.picture.trail": "浅色点：健侧手到过的位置。",
+  "wizard.ready.screen.there": "✓ 患者屏幕已连接。",
 };
