@@ -49,6 +49,12 @@ describe("figures", () => {
   });
 });
 
+test("six games leave room for the other figures that say most", () => {
+  const games = ["reach", "trace", "catch", "everyday", "wipe", "row"];
+  const families = familiesOf([...games.map((joint) => line("game_level", { joint })), line("sparc")]);
+  expect(firstFamilies(families).map(({ name }) => name)).toEqual(["game_level", "game_level", "sparc"]);
+});
+
 describe("the arm that is judged", () => {
   test("is the affected one", () => {
     const [family] = familiesOf([HEALTHY, AFFECTED]);
