@@ -37,12 +37,23 @@ def marks_of(events: Sequence[Event], spans: Sequence[StateSpan], started_at: da
 
 
 def _scored(events: Sequence[Event]) -> list[tuple[Event, str]]:
-    counts = [event for event in events if event.kind == SCORE]
-    before = [{}, *(event.data for event in counts)]
-    return [
-        (event, "hit" if event.data.get("hits", 0) > last.get("hits", 0) else "missed")
-        for last, event in zip(before, counts, strict=False)
-    ]
+    """Each count that rose; every exercise of a session counts from nothing."""
+    before: dict[int, Event] = {}
+    scored = []
+    for event in events:
+        if event.kind == SCORE:
+            exercise = event.data.get("exercise", 1)
+            rose = (name for name in ("hits", "misses") if _count(event, name) > _count(before.get(exercise), name))
+            scored += [(event, _MARKED_AS[name]) for name in rose]
+            before[exercise] = event
+    return scored
+
+
+_MARKED_AS = {"hits": "hit", "misses": "missed"}
+
+
+def _count(event: Event | None, name: str) -> int:
+    return 0 if event is None else int(event.data.get(name, 0))
 
 
 def _hurt(events: Sequence[Event]) -> list[tuple[Event, str]]:

@@ -147,6 +147,19 @@ def test_hits_misses_and_pain_lie_where_the_recording_has_them():
     assert [(mark.kind, mark.t_s) for mark in marks] == [("hit", 3.0), ("missed", 6.0), ("pain", 7.0)]
 
 
+def test_every_exercise_counts_anew_and_its_beginning_is_no_attempt():
+    spans = [StateSpan(state=READY, from_s=0.0, to_s=20.0)]
+    events = [
+        event(1.0, "score", "hit", exercise=1, hits=1, misses=0),
+        event(2.0, "score", "hit", exercise=1, hits=2, misses=0),
+        event(3.0, "score", "", exercise=2, hits=0, misses=0),
+        event(4.0, "score", "hit", exercise=2, hits=1, misses=0),
+        event(5.0, "score", "missed", exercise=2, hits=1, misses=1),
+    ]
+    marks = marks_of(events, spans, START)
+    assert [(mark.kind, mark.t_s) for mark in marks] == [("hit", 1.0), ("hit", 2.0), ("hit", 4.0), ("missed", 5.0)]
+
+
 def test_without_a_change_of_state_the_opening_counts():
     spans = [StateSpan(state=READY, from_s=0.0, to_s=20.0)]
     marks = marks_of([event(6.0, "control", "pain")], spans, START)
