@@ -1,6 +1,7 @@
 // The figures of a session in groups, each with its plain meaning and what must be said beside it.
 import type { Metric, Side } from "../../api/types";
 import { t } from "../../strings";
+import { GameTable } from "./game-table";
 import { JointTable, RangeTable } from "./joint-tables";
 import {
   amountOf,
@@ -37,6 +38,7 @@ export function Figures({ metrics, measured, affectedSide }: Props) {
 
 function GroupFigures({ group, affectedSide }: { group: Group; affectedSide: Side }) {
   if (group.id === "range") return <RangeTable metrics={group.metrics} affectedSide={affectedSide} />;
+  if (group.id === "games") return <GameTable metrics={group.metrics} />;
   if (group.byJoint) return <JointTable metrics={group.metrics} />;
   const shared = sharedCaveatsOf(group.metrics);
   return (

@@ -90,7 +90,7 @@ function Range({ metrics, joint }: { metrics: readonly Metric[]; joint: string }
   );
 }
 
-function Caveats({ metrics }: { metrics: readonly Metric[] }) {
+export function Caveats({ metrics }: { metrics: readonly Metric[] }) {
   return (
     <>
       {caveatsOf(metrics).map((caveat) => (
@@ -102,11 +102,11 @@ function Caveats({ metrics }: { metrics: readonly Metric[] }) {
   );
 }
 
-function cell(metric: Metric | undefined): string {
+export function cell(metric: Metric | undefined): string {
   return metric ? amountOf(metric) : "–";
 }
 
 /** The first of each kind, in the order in which kinds appear. */
-function firstOfEach(metrics: readonly Metric[], kind: (metric: Metric) => string): Metric[] {
+export function firstOfEach(metrics: readonly Metric[], kind: (metric: Metric) => string): Metric[] {
   return metrics.filter((metric, index) => metrics.findIndex((one) => kind(one) === kind(metric)) === index);
 }
