@@ -61,15 +61,15 @@ export class Flight {
     this.age_s += dt_s;
     const before = this.at.clone();
     if (this.leaving_s === null) this.at.lerp(new Vector3(...this.view.position), Math.min(1, FOLLOWING_PER_S * dt_s));
-    else this.flyOn(dt_s);
+    else this.flyOn(dt_s, still);
     if (dt_s > 0) this.butterfly.head(this.at.clone().sub(before).divideScalar(dt_s), dt_s);
     this.butterfly.flutter(dt_s, false, still);
     this.put(still);
   }
 
-  private flyOn(dt_s: number): void {
+  private flyOn(dt_s: number, still: boolean): void {
     this.leaving_s = (this.leaving_s ?? 0) + dt_s;
-    const way = LEAVING_M_S.clone().multiplyScalar(dt_s);
+    const way = LEAVING_M_S.clone().multiplyScalar(still ? 0 : dt_s);
     if (this.at.x < 0) way.x *= -1;
     this.at.add(way);
     this.butterfly.fade(Math.max(0, 1 - this.leaving_s / LEAVES_S));

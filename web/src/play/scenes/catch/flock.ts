@@ -61,6 +61,7 @@ export class Flock {
     this.friends.forEach((friend, i) => {
       friend.age_s += dt_s;
       const sits = friend.age_s < SITS_S;
+      if (still && !sits) friend.age_s = SITS_S + FLIES_S;
       if (sits && hand) friend.from.lerp(new Vector3(hand.x, hand.y, hand.z), Math.min(1, 10 * dt_s));
       this.put(i, friend, sits, still ? 0 : now_s);
     });

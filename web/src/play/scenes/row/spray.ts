@@ -1,4 +1,4 @@
-// Where a blade enters the water: rings that widen, and drops that fly while it pulls. No drops where motion disturbs.
+// Where a blade enters the water: rings that widen, and drops that fly while it pulls. Neither where motion disturbs.
 import {
   BufferAttribute,
   BufferGeometry,

@@ -106,8 +106,8 @@ export class Voyage implements GameScene {
   private dip(paddle: Paddle, hand: Vector3 | null, pulls: boolean, dt_s: number, still: boolean): void {
     const was = paddle.isDipped;
     paddle.animate(dt_s, hand, pulls);
-    if (!paddle.isDipped || !hand) return;
+    if (!paddle.isDipped || !hand || still) return;
     if (!was) this.spray.enter(paddle.tip);
-    if (!still) this.spray.pull(paddle.tip, dt_s / 2);
+    this.spray.pull(paddle.tip, dt_s / 2);
   }
 }
