@@ -59,13 +59,24 @@ window.WebSocket = class extends Real {{
     this.addEventListener("message", ({{ data }}) => window.heard.push(data) > {HEARD} && window.heard.shift());
   }}
 }};"""
-PLAY_AGAIN = """let next = 0;
+PLAY_AGAIN = """const messages = window.again.map((text) => JSON.parse(text));
+const first = messages[0];
+const lasts_s = messages.at(-1).tick.t_s - first.tick.t_s + 1 / 60;
+let next = 0;
+// Round after round time goes on and nothing is counted back: to the page that would be another game.
+const said = () => {
+  const round = Math.floor(next / messages.length);
+  const { tick, game, session } = messages[next++ % messages.length];
+  const { hits, misses, score, total_score } = first.game;
+  const later = { ...tick, index: next, t_s: tick.t_s + round * lasts_s };
+  return JSON.stringify({ tick: later, game: { ...game, hits, misses, score, total_score }, session });
+};
 window.WebSocket = class {
   static OPEN = 1;
   readyState = 1;
   constructor() {
     setTimeout(() => this.onopen?.({}));
-    setInterval(() => this.onmessage?.({ data: window.again[next++ % window.again.length] }), 1000 / 60);
+    setInterval(() => this.onmessage?.({ data: said() }), 1000 / 60);
   }
   send() {}
   close() {}
