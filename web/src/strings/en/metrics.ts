@@ -96,7 +96,8 @@ export const metrics = {
   "caveat.carried_weight": "The exoskeleton's part contains carrying the arm's weight.",
   "caveat.sensor_noise": "The sensors' noise has a part in it: compare only sessions with the same set-up.",
   "caveat.unreliable": "Depth cameras do not measure this reliably: do not judge a patient by it.",
-  "caveat.adapted": "The games adapt their difficulty to keep success near 75 %: the difficulty shows what has changed.",
+  "caveat.adapted":
+    "The games adapt their difficulty to keep success near 75 %: the difficulty shows what has changed.",
   "caveat.slow":
     "The movements were so slow that the sensors' noise breaks them up: compare only sessions that were as slow.",
   "caveat.one_sensor": "Seen by one camera alone: what it could not see was guessed. Use two.",
