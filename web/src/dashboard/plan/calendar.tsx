@@ -16,7 +16,7 @@ type Week = Adherence["weeks"][number];
 type Day = Adherence["days"][number];
 
 export function Calendar({ plan }: { plan: Plan }) {
-  const weeks = weeksSince(dayOf(plan.starts_on), new Date());
+  const weeks = weeksShown(dayOf(plan.starts_on), new Date());
   const adherence = useAsked(() => readAdherence(plan.patient_id, weeks), plan.patient_id);
   return (
     <section class="card" data-testid="adherence">
@@ -28,10 +28,14 @@ export function Calendar({ plan }: { plan: Plan }) {
   );
 }
 
-/** Calendar weeks to show: from the plan's first one, but not too few nor too many. */
+/** Calendar weeks from the one of the first day to this one, and one for those that begin on another day than Monday. */
 export function weeksSince(start: Date, today: Date): number {
-  const weeks = Math.ceil((today.getTime() - start.getTime()) / DAY_MS / DAYS) + 1;
-  return Math.min(Math.max(weeks, FEWEST_WEEKS), MOST_WEEKS);
+  return Math.max(1, Math.ceil((today.getTime() - start.getTime()) / DAY_MS / DAYS) + 1);
+}
+
+/** Weeks to show: from the plan's first one, but not too few nor too many. */
+export function weeksShown(start: Date, today: Date): number {
+  return Math.min(Math.max(weeksSince(start, today), FEWEST_WEEKS), MOST_WEEKS);
 }
 
 function Weeks({ adherence: { days, weeks } }: { adherence: Adherence }) {
