@@ -7,7 +7,8 @@ light waits. So the whole path is followed inside the tube, or it is not finishe
 
 Things: `light` at the light's place, its radius the tube's, its progress the share of the path that is done, its state
 "waiting" (not taken up yet), "led" (the hand has it) or "left" (it waits for the hand); `end` at the path's end, its
-progress the share of the time that is left. The way is the whole path.
+progress the share of the time that is left. The way is the whole path. Feedback: "steady" for a light that was hardly
+left on the whole way.
 """
 
 from __future__ import annotations
@@ -44,6 +45,8 @@ NEARLY_M: Final = 0.01
 LEAD_M: Final = 0.08
 """The aim runs so far before the light."""
 POINTS, LARGEST_BONUS = 10, 5
+STEADY: Final = 0.95
+"""Share of the time inside the tube that is called steady."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -186,8 +189,10 @@ def _ended(trial: Tracing) -> Ended:
     """What became of a path; the more of the time was inside the tube, the more points."""
     inside = trial.inside_s / trial.led_s if trial.led_s > 0.0 else 0.0
     error_m = trial.off_m_s / trial.led_s if trial.led_s > 0.0 else None
-    finished = _is_finished(trial)
-    return Ended(finished, POINTS + round(LARGEST_BONUS * inside) if finished else 0, error_m)
+    if not _is_finished(trial):
+        return Ended(success=False, points=0, error_m=error_m)
+    said = ("steady",) if inside >= STEADY else ()
+    return Ended(success=True, points=POINTS + round(LARGEST_BONUS * inside), error_m=error_m, feedback=said)
 
 
 def _aim(trial: Tracing) -> Point:

@@ -65,6 +65,7 @@ def test_a_hand_that_goes_along_the_path_carries_the_light_to_its_end(rules: Tra
     (ended,) = traced(rules, 0.2)
     assert ended.success
     assert ended.points == POINTS + LARGEST_BONUS
+    assert ended.feedback == ("steady",)
     assert ended.error_m == pytest.approx(0.0, abs=1e-3)
 
 
@@ -97,6 +98,17 @@ def test_the_light_waits_where_the_hand_left_it_and_goes_on_when_it_comes_back(r
     assert rules.scene().aim == pytest.approx(where)
     stepped(rules, where)
     assert light(rules).state == "led"
+
+
+def test_a_light_that_was_left_for_long_brings_fewer_points_and_is_not_called_steady(rules: TraceRules) -> None:
+    stepped(rules)
+    stepped(rules, way(rules).at(0.0))
+    for _ in range(round(3.0 / DT_S)):
+        stepped(rules, FAR)
+    (ended,) = traced(rules, 0.2)
+    assert ended.success
+    assert POINTS <= ended.points < POINTS + LARGEST_BONUS
+    assert ended.feedback == ()
 
 
 @settings(max_examples=30)

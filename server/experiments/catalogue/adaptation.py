@@ -27,8 +27,10 @@ if TYPE_CHECKING:
 PLAYERS: Final = 6
 """Of each ability, each with a seed and a side of its own."""
 LEAST_PLAYERS: Final = 2
-LENGTH_S: Final = 900.0
+LENGTH_S: Final = 600.0
 LEAST_S: Final = 45.0
+STEP_S: Final = 0.1
+"""The slowest that a game is ever stepped: what becomes of an attempt does not hang on it."""
 CHUNK_S: Final = 30.0
 """Played at once: the pictures of a whole game need not be kept."""
 START_LEVEL: Final = 0.2
@@ -110,7 +112,7 @@ def _players(setup: Setup, game: str, ability: Ability, length_s: float) -> Iter
         settings = GameSettings(rounds=1, round_s=length_s, start_level=START_LEVEL)
         opened, player = open_game(game, _workspace(side), seed, settings), Player(ability, seed)
         for _ in range(round(length_s / CHUNK_S)):
-            play(opened, player, CHUNK_S)
+            play(opened, player, CHUNK_S, STEP_S)
         yield opened.trials
 
 
@@ -237,8 +239,8 @@ EXPERIMENT = Experiment(
     "Games: do they adapt to 75 % success?",
     "The goal: success near 75 %, within 7 points, for a weak, a middling and a quick hand in every game, by the "
     "weighted up-down staircase of Kaernbach (1991).",
-    "Virtual players of three abilities (reaction, speed, tremor, lapses) play every game for a quarter of an hour "
-    "without rests, from the level at which a session begins, half of them with either arm. The share of successes in "
+    "Virtual players of three abilities (reaction, speed, tremor, lapses) play every game for ten minutes without "
+    "rests, from the level at which a session begins, half of them with either arm. The share of successes in "
     "the later half of each player's attempts is judged; its uncertainty is that of the mean over players.",
     run,
     order=30,

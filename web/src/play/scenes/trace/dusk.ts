@@ -3,10 +3,17 @@ import { Group, type Scene, Vector3 } from "three";
 import type { Changes, GameView, ThingView } from "../../changes";
 import { dispose } from "../../dispose";
 import type { GameScene, Moment } from "../../scene";
+import type { Tone } from "../../sound";
 import { Fleet } from "./fleet";
 import { Flower } from "./flower";
 import { Lantern } from "./lantern";
 import { Ribbon } from "./ribbon";
+
+/** High bells after the two notes of a success, for a light that was hardly left. */
+const STEADY: readonly Tone[] = [
+  { after_s: 0.24, pitch_hz: 1174.66, ring_s: 1.4 },
+  { after_s: 0.36, pitch_hz: 1567.98, ring_s: 1.8 },
+];
 
 /** One path with all that belongs to it. */
 class Path {
@@ -58,6 +65,7 @@ class Path {
 
 export class Dusk implements GameScene {
   readonly group = new Group();
+  readonly tones = { steady: STEADY };
   private readonly fleet = new Fleet();
   private path: Path | null = null;
   private leaving: Path[] = [];
