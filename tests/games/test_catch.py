@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from itertools import pairwise
 
 import numpy as np
@@ -10,17 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fusion.skeleton import Side
-from games.catch import (
-    EASY_FLIGHT_S,
-    EASY_LINGER_S,
-    EASY_RADIUS_M,
-    HARD_NOTICE_S,
-    HARD_RADIUS_M,
-    IN_TIME_POINTS,
-    POINTS,
-    CatchRules,
-    demands,
-)
+from games.butterfly import EASY_FLIGHT_S, EASY_LINGER_S, EASY_RADIUS_M, HARD_NOTICE_S, HARD_RADIUS_M, demands
+from games.catch import IN_TIME_POINTS, POINTS, CatchRules
 from games.game import GameSettings, Point, ThingView, Workspace
 from games.play import Play
 from games.player import QUICK, WEAK, Player, play
@@ -94,7 +86,7 @@ def test_touching_the_place_and_leaving_before_the_arrival_catches_nothing(rules
 
 @given(level=levels, seed=st.integers(0, 2**31), side=st.sampled_from(list(Side)))
 def test_a_butterfly_sinks_smoothly_into_its_place_and_never_flies_at_the_face(
-    level: float, seed: int, side: Side, workspace_of: type[Workspace]
+    level: float, seed: int, side: Side, workspace_of: Callable[[Side], Workspace]
 ) -> None:
     rules = CatchRules(workspace_of(side), np.random.default_rng(seed))
     views: list[ThingView] = []

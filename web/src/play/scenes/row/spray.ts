@@ -28,6 +28,11 @@ interface Drop {
   readonly speed: [number, number, number];
 }
 
+interface Widening {
+  age_s: number;
+  readonly mesh: Mesh<RingGeometry, MeshBasicMaterial>;
+}
+
 export class Spray {
   readonly group = new Group();
   private readonly places = new BufferAttribute(new Float32Array(3 * DROPS), 3);
@@ -36,7 +41,10 @@ export class Spray {
     from: [0, UNDER_WATER_Y, 0],
     speed: [0, 0, 0],
   }));
-  private readonly rings = Array.from({ length: RINGS }, () => ({ age_s: RING_LIFE_S, mesh: ring() }));
+  private readonly rings: readonly Widening[] = Array.from({ length: RINGS }, () => ({
+    age_s: RING_LIFE_S,
+    mesh: ring(),
+  }));
   private next = 0;
   private nextRing = 0;
   private owed = 0;
@@ -81,13 +89,9 @@ export class Spray {
       this.putDrop(i, drop);
     });
     this.places.needsUpdate = true;
-    for (const { mesh, ...one } of this.rings) mesh.visible = one.age_s < RING_LIFE_S;
     for (const one of this.rings) {
       one.age_s += dt_s;
-      one.mesh.position.z += drift_m;
-      const share = Math.min(1, one.age_s / RING_LIFE_S);
-      one.mesh.scale.setScalar(0.06 + 0.5 * share);
-      one.mesh.material.opacity = 0.7 * (1 - share) ** 1.5;
+      widen(one, drift_m);
     }
   }
 
@@ -99,6 +103,14 @@ export class Spray {
     const y = from[1] + speed[1] * t - 0.5 * GRAVITY_M_S2 * t * t;
     this.places.setXYZ(i, from[0] + speed[0] * t, y, from[2] + speed[2] * t);
   }
+}
+
+function widen({ age_s, mesh }: Widening, drift_m: number): void {
+  const share = Math.min(1, age_s / RING_LIFE_S);
+  mesh.visible = share < 1;
+  mesh.position.z += drift_m;
+  mesh.scale.setScalar(0.06 + 0.5 * share);
+  mesh.material.opacity = 0.7 * (1 - share) ** 1.5;
 }
 
 function ring(): Mesh<RingGeometry, MeshBasicMaterial> {
