@@ -173,7 +173,7 @@ def test_the_dashboard_is_a_small_download(clinic: Clinic) -> None:
     fresh = clinic.context.new_page()
     fresh.on("response", count)
     fresh.goto(clinic.address)
-    fresh.get_by_role("link", name="Patients").wait_for()
+    fresh.get_by_test_id("nav-today").wait_for()
     fresh.wait_for_load_state("networkidle")
     assert 0 < sum(fetched.values()) <= MOST_BYTES, fetched
     assert not any("three" in address for address in fetched), fetched
