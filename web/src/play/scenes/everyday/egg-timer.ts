@@ -31,7 +31,7 @@ export class EggTimer {
 
   constructor(inward: number) {
     const shell = new MeshLambertMaterial({ color: new Color("#f3ead7") });
-    const egg = new Mesh(new SphereGeometry(EGG_M, 24, 16), shell);
+    const egg = new Mesh(new SphereGeometry(EGG_M, 16, 10), shell);
     egg.scale.set(1, 1.15, 1);
     const dial = new Mesh(new CircleGeometry(DIAL_M, 40), new MeshBasicMaterial({ color: new Color("#fffdf6") }));
     const shape = new RingGeometry(0.012, DIAL_M * 0.92, STEPS, 1, Math.PI / 2, Math.PI * 2);

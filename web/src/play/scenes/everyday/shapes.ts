@@ -29,7 +29,7 @@ const GRIP_M = 0.052;
 const GRIP_AHEAD_M = 0.02;
 const SIP_M = [0.05, 0.05, 0.06] as const;
 
-const TURNED = 24;
+const TURNED = 18;
 const BLOCK_M = 0.068;
 const ENAMEL = "#2f8fb3";
 const ENAMEL_RIM = "#fdfbf4";
@@ -58,7 +58,7 @@ export function shapeOf(kind: string, inward: number): BufferGeometry {
 
 /** An enamel mug, its handle outward. */
 function cup(inward: number): BufferGeometry {
-  const handle = new TorusGeometry(0.022, 0.006, 6, 14).translate(-inward * 0.046, -0.056, 0);
+  const handle = new TorusGeometry(0.022, 0.006, 5, 10).translate(-inward * 0.046, -0.056, 0);
   const outside: Outline = [
     [0, -0.1],
     [0.034, -0.1],
@@ -70,7 +70,7 @@ function cup(inward: number): BufferGeometry {
     [0.034, -0.092],
     [0, -0.092],
   ];
-  const rim = new TorusGeometry(0.0395, 0.0028, 6, TURNED).rotateX(Math.PI / 2).translate(0, -0.012, 0);
+  const rim = new TorusGeometry(0.0395, 0.0028, 4, TURNED).rotateX(Math.PI / 2).translate(0, -0.012, 0);
   return merged([
     tinted(lathe(outside), ENAMEL),
     tinted(lathe(inside), ENAMEL_INSIDE),
@@ -98,7 +98,7 @@ function jug(inward: number): BufferGeometry {
     [0.0525, -0.098],
   ];
   const spout = new ConeGeometry(0.02, 0.034, 10, 1, true).rotateZ(inward * 2.2).translate(inward * 0.036, -0.012, 0);
-  const handle = new TorusGeometry(0.03, 0.007, 6, 14).scale(0.8, 1.25, 1).translate(-inward * 0.048, -0.062, 0);
+  const handle = new TorusGeometry(0.03, 0.007, 5, 10).scale(0.8, 1.25, 1).translate(-inward * 0.048, -0.062, 0);
   return merged([tinted(lathe(body), CLAY), tinted(lathe(band), CLAY_BAND), tinted(spout, CLAY), tinted(handle, CLAY)]);
 }
 

@@ -55,9 +55,9 @@ export class Stands {
       depthWrite: false,
     });
     const outline = COLUMN.map(([radius, height]) => new Vector2(radius, height));
-    this.plates = new InstancedMesh(new CylinderGeometry(PLATE_M, PLATE_M * 0.92, PLATE_THICK_M, 28), wood, MOST);
-    this.columns = new InstancedMesh(new LatheGeometry(outline, 16), wood, MOST);
-    this.shades = new InstancedMesh(new CircleGeometry(PLATE_M * 1.1, 24).rotateX(-Math.PI / 2), shade, MOST);
+    this.plates = new InstancedMesh(new CylinderGeometry(PLATE_M, PLATE_M * 0.92, PLATE_THICK_M, 20), wood, MOST);
+    this.columns = new InstancedMesh(new LatheGeometry(outline, 10), wood, MOST);
+    this.shades = new InstancedMesh(new CircleGeometry(PLATE_M * 1.1, 18).rotateX(-Math.PI / 2), shade, MOST);
     this.shades.renderOrder = -2;
     for (const part of [this.plates, this.columns, this.shades]) {
       part.frustumCulled = false;

@@ -56,9 +56,9 @@ export class MistedWindow implements GameScene {
     this.still = moment.still;
     const hand = moment.hand ? this.window.worldToLocal(moment.hand.clone()) : null;
     this.wiper.animate(this.touch, hand);
-    this.glass?.shadow(this.touch ? hand : null);
     this.gleam_s = Math.min(GLEAM_S, this.gleam_s + moment.dt_s);
-    this.glass?.animate(moment.dt_s, this.cells, moment.still ? 1 : this.gleam_s / GLEAM_S);
+    const swept = moment.still ? 1 : this.gleam_s / GLEAM_S;
+    this.glass?.animate(moment.dt_s, this.cells, swept, this.touch ? hand : null);
     this.frame?.animate(this.gone, moment.dt_s, moment.still);
     this.sparkles?.animate(moment.dt_s, moment.still);
     this.feast.animate(moment.dt_s, moment.camera);
@@ -89,7 +89,7 @@ export class MistedWindow implements GameScene {
     this.sparkles = new Sparkles(cell_m);
     this.window.position.set(...pane.position);
     this.window.rotation.x = -pane.turn_rad;
-    this.window.add(this.glass.mesh, this.frame.group, this.sparkles.points);
+    this.window.add(this.glass.group, this.frame.group, this.sparkles.points);
     this.window.updateMatrixWorld(true);
     this.frame.stand(this.corners((columns * cell_m) / 2, (rows * cell_m) / 2));
     this.group.add(this.frame.legs);
