@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from itertools import combinations, pairwise
+from math import radians
 
 import numpy as np
 import pytest
 
 from fusion.skeleton import Side
 from games.game import Point, Workspace
-from games.kitchen import BLOCK_M, EASY_BLOCKS, HARD_BELOW_M, HARD_BLOCKS, LOWEST_M, Kitchen, kitchen
-from games.nearest import HERE_M, nearest_reach
+from games.kitchen import BLOCK_M, EASY_BLOCKS, HARD_BELOW_M, HARD_BLOCKS, LOWEST_M, MOUTH_M, Kitchen, kitchen
+from games.nearest import nearest_reach
 from games.workspace import IN_FRONT_M, distance_m
 
 
@@ -39,13 +40,11 @@ def test_things_stand_apart_in_sight_and_below_the_shoulder(usual: Workspace) ->
             assert z - usual.shoulder[2] < -IN_FRONT_M + 0.05
 
 
-def test_the_mouth_is_the_mouth_where_the_elbow_bends_far_enough(usual: Workspace) -> None:
-    supple = Workspace(
-        usual.side, usual.shoulder, usual.upper_arm_m, usual.forearm_m, (-0.5, 2.2), (0.0, 1.8), (-1.2, 1.5), (0.0, 2.7)
-    )
-    mouth = set_tables(supple)[0].mouth
-    assert distance_m(mouth, (0.05, 0.06, -0.22)) <= HERE_M
-    assert distance_m(set_tables(usual)[0].mouth, (0.05, 0.06, -0.22)) < 0.15
+@pytest.mark.parametrize(("elbow_deg", "off_m"), [(145, 0.0), (135, 0.04), (120, 0.10)])
+def test_the_mouth_is_as_near_as_the_elbow_bends(elbow_deg: float, off_m: float) -> None:
+    ranges = [(radians(low), radians(high)) for low, high in ((-20, 120), (0, 100), (-60, 80), (0, elbow_deg))]
+    mouth = set_tables(Workspace(Side.RIGHT, (0.18, 0.0, 0.0), 0.28, 0.33, *ranges))[0].mouth
+    assert distance_m(mouth, MOUTH_M) == pytest.approx(off_m, abs=0.005)
 
 
 def test_a_tower_grows_by_a_block_where_the_arm_gets_that_high(usual: Workspace) -> None:
