@@ -14,7 +14,11 @@ export default defineConfig({
   // `npm run dev` serves the pages itself and asks a running station for everything else.
   server: {
     host: "127.0.0.1",
-    proxy: { "/api": { target: service, ws: true }, "/view3d": { target: service, ws: true } },
+    proxy: {
+      "/api": { target: service, ws: true },
+      "/view3d": { target: service, ws: true },
+      "/replay3d": { target: service, ws: true },
+    },
   },
   test: { include: ["src/**/*.test.ts"] },
 });
