@@ -53,9 +53,14 @@ class Menu:
         gap_m = min(distance_m(middle, left), distance_m(middle, right))
         self._radius_m = min(LARGEST_RADIUS_M, SHARE_OF_GAP * gap_m)
         self._progress: dict[Wish, float] = {}
+        self._left: frozenset[Wish] = frozenset()
+        """Spots that the hand has been away from since they are offered: who comes to one chooses it, not who lay there
+        when the game paused, rested or ended.
+        """
 
     def step(self, offered: tuple[Wish, ...], hand: Point, dt_s: float) -> Wish:
         """What is chosen with this step, `Wish.NONE` where nothing is."""
+        self._left = frozenset(wish for wish in offered if wish in self._left or not self._is_at(wish, hand))
         self._progress = {wish: self._moved_on(wish, hand, dt_s) for wish in offered}
         chosen = next((wish for wish, progress in self._progress.items() if progress >= 1.0), Wish.NONE)
         if chosen is not Wish.NONE:
@@ -85,9 +90,13 @@ class Menu:
                 return ()
 
     def _moved_on(self, wish: Wish, hand: Point, dt_s: float) -> float:
-        inside = distance_m(hand, self._spots[wish]) <= self._radius_m
-        change = dt_s / DWELL_S * (1.0 if inside else -LEAVING)
+        # A game that waits begins by itself in any case: whose hand is at its spot already need not leave it.
+        chooses = self._is_at(wish, hand) and (wish in self._left or wish is Wish.START)
+        change = dt_s / DWELL_S * (1.0 if chooses else -LEAVING)
         return min(max(self._progress.get(wish, 0.0) + change, 0.0), 1.0)
+
+    def _is_at(self, wish: Wish, hand: Point) -> bool:
+        return distance_m(hand, self._spots[wish]) <= self._radius_m
 
     def _is_clear(self, view: GameView) -> bool:
         spot = self._spots[Wish.PAUSE]

@@ -122,7 +122,8 @@ class Play:
             case Wish.PAUSE, (Phase.WAITING | Phase.PLAYING | Phase.REST):
                 return replace(state, phase=Phase.PAUSED, goes_on=state.phase, feedback=("paused",))
             case Wish.REST, Phase.PLAYING:
-                return self._resting(state, round_left_s=max(state.time_left_s, 0.0))
+                # Where the round's time is over and an attempt is being finished, the round is over with it.
+                return self._resting(state, state.time_left_s) if state.time_left_s > 0.0 else self._round_over(state)
             case Wish.QUIT, phase if phase is not Phase.OVER:
                 return self._over(state)
             case _:
@@ -177,6 +178,9 @@ class Play:
             return self._begun(state)
         if state.phase is Phase.REST:
             return self._after_rest(state, left_s)
+        return self._round_over(state)
+
+    def _round_over(self, state: State) -> State:
         return self._resting(state, 0.0) if state.round < self._settings.rounds else self._over(state)
 
     def _begun(self, state: State) -> State:

@@ -102,6 +102,14 @@ def test_a_rest_that_is_wished_comes_at_once_and_its_round_goes_on_after_it(usua
     assert again.time_left_s == pytest.approx(left_s - DT_S)
 
 
+def test_a_rest_that_is_wished_when_the_last_rounds_time_is_over_ends_the_game(usual: Workspace) -> None:
+    game = begun(usual, replace(SHORT, rounds=1))
+    while game.view().time_left_s > 0.0:
+        stepped(game)
+    assert game.view().phase is Phase.PLAYING
+    assert stepped(game, wish=Wish.REST).phase is Phase.OVER
+
+
 def test_a_game_that_is_over_stays_over(usual: Workspace) -> None:
     game = begun(usual)
     assert stepped(game, wish=Wish.QUIT).feedback == ("over",)

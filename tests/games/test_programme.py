@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import pytest
 from hypothesis import given
@@ -26,10 +27,18 @@ inputs = st.lists(
 )
 
 
+ELSEWHERE = (9.0, 9.0, 9.0)
+
+
+def spot(programme: Programme, wish: Wish) -> Point:
+    """Where that choice stands."""
+    return next(choice.position for choice in programme.view().choices if choice.id is wish)
+
+
 def chosen(programme: Programme, wish: Wish) -> GameView:
-    """Stay at the spot of that choice for as long as it takes."""
-    view = programme.view()
-    place = next(choice.position for choice in view.choices if choice.id is wish)
+    """Come to the spot of that choice and stay there for as long as it takes."""
+    place = spot(programme, wish)
+    view = programme.step(GameInput(DT_S, ELSEWHERE, active=True))
     for _ in range(round(DWELL_S / DT_S) + 2):
         view = programme.step(GameInput(DT_S, place, active=True))
     return view
@@ -46,6 +55,36 @@ def test_the_patient_starts_pauses_goes_on_and_quits_by_gesture(usual: Workspace
     assert chosen(programme, Wish.NEXT).exercise == 2
     programme.step(GameInput(DT_S, (9.0, 9.0, 9.0), active=True, wish=Wish.PAUSE))
     assert chosen(programme, Wish.QUIT).phase is Phase.OVER
+
+
+@pytest.mark.parametrize("wish", [Wish.GO_ON, Wish.QUIT, Wish.NEXT])
+def test_a_hand_that_lies_at_a_spot_when_the_game_pauses_chooses_nothing(usual: Workspace, wish: Wish) -> None:
+    programme = Programme(TWO, usual, 4)
+    programme.step(GameInput(DT_S, ELSEWHERE, active=True, wish=Wish.START))
+    programme.step(GameInput(DT_S, ELSEWHERE, active=True, wish=Wish.PAUSE))
+    place = spot(programme, wish)
+    programme.step(GameInput(DT_S, place, active=True, wish=Wish.GO_ON))
+    programme.step(GameInput(DT_S, place, active=True, wish=Wish.PAUSE))
+    for _ in range(round(3 * DWELL_S / DT_S)):
+        view = programme.step(GameInput(DT_S, place, active=True))
+    assert (view.phase, view.exercise) == (Phase.PAUSED, 1)
+    assert all(choice.progress == 0.0 for choice in view.choices)
+    chosen(programme, wish)
+    assert programme.view().phase is not Phase.PAUSED
+
+
+def test_who_pauses_by_hand_and_stays_there_quits_nothing_where_two_spots_are_one(usual: Workspace) -> None:
+    """An arm whose elbow alone moves has its lowest place and its outermost one at the same end."""
+    still = replace(usual, plane_rad=(1.0, 1.002), elevation_rad=(0.7, 0.702), rotation_rad=(0.0, 0.002))
+    programme = Programme(TWO, still, 4)
+    programme.step(GameInput(DT_S, ELSEWHERE, active=True, wish=Wish.START))
+    while not programme.view().choices:
+        programme.step(GameInput(DT_S, ELSEWHERE, active=True))
+    place = spot(programme, Wish.PAUSE)
+    assert chosen(programme, Wish.PAUSE).phase is Phase.PAUSED
+    for _ in range(round(3 * DWELL_S / DT_S)):
+        view = programme.step(GameInput(DT_S, place, active=True))
+    assert (view.phase, view.exercise) == (Phase.PAUSED, 1)
 
 
 def test_a_hand_that_passes_by_chooses_nothing(usual: Workspace) -> None:
