@@ -6,13 +6,15 @@ from collections.abc import Callable
 from contextlib import suppress
 
 import httpx
-from fastapi import APIRouter, HTTPException, Response, WebSocket, WebSocketDisconnect
+from fastapi import APIRouter, Depends, HTTPException, Response, WebSocket, WebSocketDisconnect
 from fastapi.responses import RedirectResponse
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, InvalidHandshake
 from websockets.typing import Subprotocol
 
-from server.api.deps import AccountDep, ServiceDep
+from db.account import Account
+from server.api.deps import ServiceDep, get_account, get_therapist
+from server.api.errors import as_response
 from server.api.guard import REPLAY3D, VIEW3D
 from server.api.race import until_first_ends
 from server.api.service import Service
@@ -29,16 +31,20 @@ _QUIET = b"""<style>
 </style></head>"""
 
 
-def _let_through(prefix: str, port_of: Callable[[Service], int]) -> None:
-    """Routes below `prefix` to the viser that listens on a port of the loopback address; 0 = it is closed."""
+def _let_through(prefix: str, port_of: Callable[[Service], int], *, is_record: bool) -> None:
+    """Routes below `prefix` to the viser that listens on a port of the loopback address; 0 = it is closed.
 
-    @router.get(prefix)
-    async def without_slash(_: AccountDep) -> RedirectResponse:
+    A past session's, perhaps another patient's, is for those who treat; the live view is for all who are logged in.
+    """
+    gate = [Depends(get_therapist if is_record else get_account)]
+
+    @router.get(prefix, dependencies=gate)
+    async def without_slash() -> RedirectResponse:
         """Viser's page finds its socket relative to the address with the slash."""
         return RedirectResponse(f"{prefix}/")
 
-    @router.get(prefix + "/{path:path}")
-    async def page(path: str, _: AccountDep, service: ServiceDep) -> Response:
+    @router.get(prefix + "/{path:path}", dependencies=gate)
+    async def page(path: str, service: ServiceDep) -> Response:
         return await _page(port_of(service), path)
 
     # viser's page opens its socket at the prefix itself, without a slash.
@@ -47,13 +53,23 @@ def _let_through(prefix: str, port_of: Callable[[Service], int]) -> None:
     async def socket(socket: WebSocket, path: str = "") -> None:
         """Viser's socket, both ways, while the log-in lasts."""
         admitted = await admit(socket)
-        if admitted is not None:
-            service, _ = admitted
+        if admitted is None:
+            return
+        service, account = admitted
+        if is_record and not account.role.may_treat:
+            await _refuse(socket, account)
+        else:
             await _join(socket, service, port_of(service))
 
 
-_let_through(VIEW3D, lambda service: service.view3d.port)
-_let_through(REPLAY3D, lambda service: service.replay.port)
+_let_through(VIEW3D, lambda service: service.view3d.port, is_record=False)
+_let_through(REPLAY3D, lambda service: service.replay.port, is_record=True)
+
+
+async def _refuse(socket: WebSocket, account: Account) -> None:
+    await socket.send_denial_response(
+        as_response(403, f"{account.name} may not do this", "a therapist's account", "log in with one")
+    )
 
 
 async def _page(port: int, path: str) -> Response:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fastapi import APIRouter
 
-from server.api.deps import AccountDep, ServiceDep, TherapistDep
+from server.api.deps import ServiceDep, TherapistDep
 from server.api.errors import answers
 from server.api.replay3d_forms import ReplayForm, ReplayPublic, Timeline
 
@@ -19,13 +19,13 @@ async def play_again(form: ReplayForm, _: TherapistDep, service: ServiceDep) -> 
     return await service.replay.play(form)
 
 
-@router.get("", responses=answers(401, 503))
-async def read_replay(_: AccountDep, service: ServiceDep) -> ReplayPublic | None:
+@router.get("", responses=answers(401, 403, 503))
+async def read_replay(_: TherapistDep, service: ServiceDep) -> ReplayPublic | None:
     """How the replay stands, or null: none has been asked for, nobody has looked for a minute, or a session is open."""
     return service.replay.view()
 
 
-@router.get("/timeline", responses=answers(401, 503))
-async def read_timeline(_: AccountDep, service: ServiceDep) -> Timeline | None:
+@router.get("/timeline", responses=answers(401, 403, 503))
+async def read_timeline(_: TherapistDep, service: ServiceDep) -> Timeline | None:
     """The states, hits, misses and calls of pain of the session that is shown, or null."""
     return service.replay.timeline()

@@ -8,11 +8,15 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from websockets.exceptions import InvalidStatus
 
+from db.account import Role
+from db.queries import accounts
 from db.therapy_session import Event
 from fusion.errors import RefusedError
 from fusion.recording.log import LogAbout, LogWriter
 from server.api import replay3d
+from server.api.auth import COOKIE
 from server.api.replay3d_clock import ReplayClock
 from server.api.replay3d_forms import StateSpan
 from server.api.replay3d_frames import KEPT_EVERY_S, LONGEST_GAP_S, Frames, SensorFrames, read_frames
@@ -267,6 +271,24 @@ def test_while_a_session_is_open_nothing_is_replayed(therapist, treated, open_se
     assert until(lambda: therapist.get("/api/replay").json() is None)
     assert therapist.get("/api/replay/timeline").json() is None
     assert therapist.get("/replay3d/").status_code == 502
+
+
+def test_the_patients_screen_sees_no_past_session(shared, therapist, treated, visers_page):
+    play(therapist, treated).raise_for_status()
+    with shared.client(cookies={COOKIE: log_in_of(shared.service, Role.SCREEN)}) as screen:
+        paths = ["/api/replay", "/api/replay/timeline", "/replay3d", "/replay3d/"]
+        assert {path: screen.get(path).status_code for path in paths} == dict.fromkeys(paths, 403)
+        with pytest.raises(InvalidStatus) as refused, visers_page(shared, screen, "/replay3d"):
+            pass
+        assert refused.value.response.status_code == 403
+        with visers_page(shared, screen, "/view3d") as live:
+            assert live.socket.subprotocol
+
+
+def log_in_of(service, role):
+    with service.database.session() as session:
+        account = accounts.find_account(session, role) or accounts.add_account(session, role, None, role)
+    return service.auth.open_login(account)
 
 
 def test_a_session_that_opens_while_a_recording_is_read_ends_the_reading(shared, treated):
