@@ -64,7 +64,7 @@ class Playing:
         )
         self.log.take(given, tick.t_s)
         view = self._programme.step(given)
-        self._tally.take(view, dt_s)
+        self._tally.take(view, dt_s, active=active)
         return view
 
 

@@ -18,16 +18,16 @@ class Tally:
         self._times_s: dict[int, float] = {}
         self._newest: dict[int, GameView] = {}
 
-    def take(self, view: GameView, dt_s: float) -> None:
-        """Count a step that led to that picture."""
+    def take(self, view: GameView, dt_s: float, *, active: bool) -> None:
+        """Count a step that led to that picture; while the arm is held nobody plays."""
         if view.phase is Phase.PLAYING:
-            step_s = min(max(dt_s, 0.0), LONGEST_STEP_S)
+            step_s = min(max(dt_s, 0.0), LONGEST_STEP_S) if active else 0.0
             self._times_s[view.exercise] = self._times_s.get(view.exercise, 0.0) + step_s
         self._newest[view.exercise] = view
 
     @property
     def played(self) -> tuple[PlayedExercise, ...]:
-        """What became of every exercise that was begun; rests and pauses are no time of play."""
+        """What became of every exercise that was begun; rests, pauses and holds are no time of play."""
         return tuple(_counted(self._newest[number], duration_s) for number, duration_s in sorted(self._times_s.items()))
 
 
@@ -49,7 +49,7 @@ def play_again(path: Path) -> PlayedAgain:
     log, tally = read_game(path), Tally()
     games = opened(log.record)
     for logged in log.inputs():
-        tally.take(games.step(logged.given), logged.dt_s)
+        tally.take(games.step(logged.given), logged.dt_s, active=logged.active)
     return PlayedAgain(tally.played, games.trials)
 
 

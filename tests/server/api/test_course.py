@@ -133,6 +133,18 @@ def test_the_games_clock_stands_still_while_the_arm_is_held(course, tick, begin)
     assert course.step(tick(12.2, DriveState.ENGAGED)).time_left_s < before.time_left_s
 
 
+def test_while_the_arm_is_held_nobody_is_said_to_have_played(course, tick, begin):
+    begin(course)
+    course.playing.wish(Wish.START)
+    for k in range(20):
+        course.step(tick(10.2 + k / 20, DriveState.ENGAGED))
+    (before,) = course.played
+    for k in range(20):
+        course.step(tick(11.2 + k / 10, DriveState.HOLD))
+    assert course.played == (before,)
+    assert before.played_s == pytest.approx(1.0, abs=0.2)
+
+
 def test_the_goal_is_the_mirror_image_of_the_target_or_of_the_held_arm_and_rest_otherwise(course, tick, begin):
     assert goal(course, tick(10.0, DriveState.READY)).hand_in_trunk is None
     begin(course)

@@ -40,7 +40,7 @@ def play(path):
         )
         inputs.append(given)
         log.take(given, 5.0 + step)
-        tally.take(games.step(given), dt_s)
+        tally.take(games.step(given), dt_s, active=given.active)
     log.close()
     return games, tally.played, inputs
 
