@@ -4,13 +4,17 @@ from __future__ import annotations
 
 from datetime import date, datetime, timedelta
 from math import ceil
+from typing import Self
 
+from pydantic import model_validator
 from sqlmodel import Field, SQLModel
 
 from db.columns import Document, UtcDateTime, now_utc
 from db.exercise import Exercise
 
 DAYS = 7
+LATEST_START = timedelta(days=366)
+"""A plan begins at most so long after the day on which it is made."""
 
 
 class PlanBase(SQLModel):
@@ -44,6 +48,11 @@ class TherapyPlan(PlanBase, table=True):
         """Whether the plan asks for anything on that day."""
         return self.starts_on <= day < self.ends_before
 
+    @property
+    def most_in_a_day(self) -> int:
+        """So many sessions a day are enough to do those of a week."""
+        return ceil(self.sessions_per_week / DAYS)
+
     def planned(self, since: date, until: date) -> int:
         """Sessions planned from `since` up to, not including, `until`. A week cut by the plan's start gets its share,
         and the shares of all weeks add up to the whole.
@@ -74,6 +83,12 @@ class PlanForm(PlanBase):
             ]
         },
     }
+
+    @model_validator(mode="after")
+    def _begins_in_time(self) -> Self:
+        if self.starts_on > now_utc().astimezone().date() + LATEST_START:
+            raise ValueError("the plan begins more than a year from now")
+        return self
 
 
 class PlanPublic(PlanBase):

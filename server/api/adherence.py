@@ -80,14 +80,15 @@ def planned_in_week(plan: TherapyPlan | None, monday: date) -> int:
 
 
 def is_due(plan: TherapyPlan | None, sessions: Sequence[TherapySession], day: date) -> bool:
-    """Whether the plan asks for a session on `day`: it runs, the week's are not all done, and none was done today.
+    """Whether the plan asks for a session on `day`: it runs, the week's are not all done, and not enough was done
+    today: one session, or more where a week has more of them than days.
 
     Args:
         plan: the patient's plan.
         sessions: the patient's sessions of this week, or more.
         day: today.
     """
-    if plan is None or not plan.runs_on(day) or done_since(sessions, day) > 0:
+    if plan is None or not plan.runs_on(day) or done_since(sessions, day) >= plan.most_in_a_day:
         return False
     monday = monday_of(day)
     return done_since(sessions, monday) < planned_in_week(plan, monday)

@@ -75,6 +75,7 @@ def test_a_plan_is_made_read_and_replaced(therapist, new_patient):
         ({"sessions_per_week": 0}, "sessions_per_week"),
         ({"weeks": 0}, "weeks"),
         ({"starts_on": "soon"}, "starts_on"),
+        ({"starts_on": "9999-12-01"}, "more than a year from now"),
     ],
 )
 def test_a_plan_that_cannot_be_is_refused_by_name(therapist, new_patient, change, named):
@@ -99,6 +100,16 @@ def test_a_patient_is_due_until_today_is_done(therapist, new_patient, trained):
     trained(patient, minutes=5)
     row = row_of(therapist, patient)
     assert (row["due"], row["done_this_week"], row["last_session"]["minutes"]) == (False, 1, 5.0)
+
+
+def test_a_week_of_more_sessions_than_days_is_due_twice_a_day(therapist, new_patient, trained):
+    patient = new_patient("Twice")
+    put_plan(therapist, patient, sessions_per_week=14).raise_for_status()
+    due = [row_of(therapist, patient)["due"]]
+    for _ in range(2):
+        trained(patient, minutes=5)
+        due.append(row_of(therapist, patient)["due"])
+    assert due == [True, True, False]
 
 
 def test_those_who_are_due_come_first(therapist, new_patient):
