@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import functools
+import http.server
 import socket
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, ExitStack, contextmanager
@@ -30,6 +32,7 @@ ARGUMENTS = [
     "--no-first-run",
 ]
 SHOTS = Path(__file__).parents[2] / "test-results"
+STATIC = Path(__file__).parents[2] / "server" / "api" / "static"
 STEP_S = 1 / 60
 ADDRESSES = ("127.0.0.41", "127.0.0.42")
 PATIENT, VISITOR = "72057594037930000", "72057594037939999"
@@ -134,3 +137,21 @@ def crowd() -> Callable[[int], AbstractContextManager[Crowd]]:
                 sending.join()
 
     return before_the_sensors
+
+
+@contextmanager
+def built_pages() -> Iterator[str]:
+    """The address of the built pages, without a service behind them."""
+    quiet = type("Quiet", (http.server.SimpleHTTPRequestHandler,), {"log_message": lambda *_: None})
+    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(quiet, directory=STATIC))
+    Thread(target=server.serve_forever, daemon=True).start()
+    yield f"http://127.0.0.1:{server.server_port}"
+    server.shutdown()
+    server.server_close()
+
+
+@pytest.fixture
+def pages() -> Iterator[str]:
+    """Where the built pages are, for a test that says itself what the stream says."""
+    with built_pages() as address:
+        yield address

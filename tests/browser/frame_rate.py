@@ -10,14 +10,11 @@ the same size: what this machine gives at most at that moment. Medians of whole 
 from __future__ import annotations
 
 import argparse
-import functools
-import http.server
 import json
 import os
 import subprocess
 import sys
 import tempfile
-import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from itertools import pairwise
@@ -31,11 +28,10 @@ from games.catalogue import GAMES
 from server.cli.browser import find_browser
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from browser.conftest import ARGUMENTS
+from browser.conftest import ARGUMENTS, built_pages
 from browser.test_games import ALIGNED_MS, ask, keep_moving, patient_whose_healthy_side_is
 from conftest import _address_printed
 
-STATIC = Path(__file__).parents[2] / "server" / "api" / "static"
 SETTLES_S = 4
 """Until the page has found how much it may ask of the machine."""
 HEARD = 600
@@ -154,7 +150,7 @@ def alone(browser: Browser, game: str, heard: list[str], seconds: int) -> None:
     context = new_context(browser)
     context.add_init_script(f"window.again = {json.dumps(heard)};\n{PLAY_AGAIN}")
     play = context.new_page()
-    with files() as address:
+    with built_pages() as address:
         play.goto(f"{address}/play.html")
         measure(play, f"{game}, alone", "#play", seconds)
         context.close()
@@ -171,16 +167,6 @@ def empty(browser: Browser, seconds: int) -> None:
 
 def new_context(browser: Browser) -> BrowserContext:
     return browser.new_context(viewport={"width": 1280, "height": 720}, locale="en-GB")
-
-
-@contextmanager
-def files() -> Iterator[str]:
-    """The built pages, without a service behind them."""
-    quiet = type("Quiet", (http.server.SimpleHTTPRequestHandler,), {"log_message": lambda *_: None})
-    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(quiet, directory=STATIC))
-    threading.Thread(target=server.serve_forever, daemon=True).start()
-    yield f"http://127.0.0.1:{server.server_port}"
-    server.shutdown()
 
 
 def measure(page: Page, what: str, counter: str, seconds: int) -> None:

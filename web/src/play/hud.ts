@@ -5,7 +5,7 @@ import { child, setText } from "./dom";
 import { clockText, type Face } from "./screen";
 
 const POPUP_MS = 1100;
-const LONGEST_ROW = 5;
+const LONGEST_ROW = 3;
 
 export class Hud {
   private readonly figures: HTMLElement;
