@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fusion.skeleton import Side
@@ -133,6 +133,7 @@ def test_patches_begin_in_the_middle_and_go_outwards(rules: WipeRules) -> None:
     level=st.floats(0, 1),
     seed=st.integers(0, 3),
 )
+@settings(max_examples=30)
 def test_what_is_drawn_is_always_whole(usual: Workspace, hands: list[Point], level: float, seed: int) -> None:
     rules = WipeRules(usual, np.random.default_rng(seed))
     kinds: dict[int, str] = {}

@@ -15,8 +15,8 @@ import { TABLE_Y } from "../../table";
 const STEPS = 60;
 const EGG_M = 0.095;
 const DIAL_M = 0.078;
-const OUTWARD_M = 0.42;
-const AHEAD_M = 0.78;
+const ASIDE_M = 0.56;
+const AHEAD_M = 0.84;
 /** The dial is turned up towards the eyes. */
 const TURNED_UP_RAD = -0.55;
 const SCARCE = 0.75;
@@ -44,7 +44,7 @@ export class EggTimer {
     this.left.position.z = EGG_M * 0.86 + 0.002;
     face.rotation.x = TURNED_UP_RAD;
     this.group.add(egg, face);
-    this.group.position.set(inward * OUTWARD_M, TABLE_Y + EGG_M, -AHEAD_M);
+    this.group.position.set(inward * ASIDE_M, TABLE_Y + EGG_M, -AHEAD_M);
   }
 
   /** `gone` is the share of the time that is over; null = nothing is timed. */

@@ -77,7 +77,7 @@ function cupboards() {
     ];
   });
   const depth = FRONT_Z - WALL_Z + 0.05;
-  const body = box(0, (FLOOR_Y + TOP_Y) / 2, FRONT_Z - 0.1, DOORS * DOOR_M, TOP_Y - FLOOR_Y, 0.15, "#5f7c6d");
+  const body = box(0, (FLOOR_Y + TOP_Y) / 2, FRONT_Z - 0.1, DOORS * DOOR_M, TOP_Y - FLOOR_Y - 0.1, 0.15, "#5f7c6d");
   return [body, box(0, TOP_Y - 0.02, (FRONT_Z + WALL_Z) / 2 + 0.02, 4.6, 0.04, depth, WORKTOP), ...doors.flat()];
 }
 
