@@ -16,6 +16,7 @@ export function useFacts(feed: Feed, patient: Patient, answers: Answers): Facts 
   const tick = useFromFeed(feed, 4, ({ newest, link }) => (link === "open" ? (newest?.tick ?? null) : null));
   const affectedSide = otherSide(patient.healthy_side);
   return {
+    isConnected: tick !== null,
     sensors: tick?.sensors ?? [],
     people: withChoice(peopleOf(tick?.people ?? []), answers.choice),
     // an open session's side has been confirmed

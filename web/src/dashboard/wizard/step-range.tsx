@@ -28,7 +28,6 @@ export function RangeStep({ session, workspace, patient, facts, onTaken }: StepP
         >
           {t("wizard.range.take")}
         </button>
-        <span class="soft">{t(workspace.begun ? "wizard.range.begun" : "wizard.range.optional")}</span>
       </div>
       <ul class="wizard-ranges">
         {JOINTS.map((joint) => (
@@ -43,6 +42,7 @@ export function RangeStep({ session, workspace, patient, facts, onTaken }: StepP
           </li>
         ))}
       </ul>
+      <p class="soft">{t(workspace.begun ? "wizard.range.begun" : "wizard.range.optional")}</p>
       <p aria-live="polite" data-testid="range-source">
         {t(`wizard.range.source.${workspace.workspace.source}`)}
         {workspace.workspace.pushed && ` ${t("wizard.range.pushed")}`}

@@ -40,11 +40,14 @@ const VIEWS: Record<Step, (props: StepProps) => ComponentChildren> = {
   ready: (props) => <ReadyStep {...props} />,
 };
 
+/** Steps that say what the stream shows. */
+const LIVE: readonly Step[] = ["sensors", "person", "alignment"];
+
 export function StepView({ step, ...props }: StepProps & { step: Step }) {
   return (
     <>
       <h2 aria-live="polite">{t(`wizard.${step}.title`)}</h2>
-      {VIEWS[step](props)}
+      {props.facts.isConnected || !LIVE.includes(step) ? VIEWS[step](props) : <p role="status">… {t("wizard.lost")}</p>}
     </>
   );
 }

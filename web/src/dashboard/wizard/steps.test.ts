@@ -15,6 +15,7 @@ const person = (about: Partial<Person> = {}): Person => ({
 });
 
 const READY: Facts = {
+  isConnected: true,
   sensors: [sensor(), sensor({ sensor: "b" })],
   people: [person()],
   confirmedSide: "left",
@@ -38,6 +39,11 @@ describe("a step", () => {
 
   test("is done by a choice among several people", () => {
     expect(markOf("person", { people: [person({ isConfirmed: true }), person({ label: "B" })] })).toBe("done");
+  });
+
+  test("says nothing of sensors and people while the stream is not there", () => {
+    const lost = { isConnected: false, sensors: [], people: [] };
+    for (const step of ["sensors", "person", "alignment"] as const) expect(markOf(step, lost)).toBe("busy");
   });
 
   test("of alignment gets there by itself, and needs nothing of a single sensor", () => {

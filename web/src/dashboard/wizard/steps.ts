@@ -9,6 +9,8 @@ export type Step = (typeof STEPS)[number];
 
 /** What the wizard goes by: what the stream shows, and what the therapist has answered. */
 export interface Facts {
+  /** Without the stream nothing is known of sensors and people. */
+  isConnected: boolean;
   sensors: readonly SensorView[];
   /** With the therapist's choice among them, also where the station has not heard of it yet. */
   people: readonly Person[];
@@ -54,22 +56,27 @@ export function farApart(sensors: readonly SensorView[]): SensorView[] {
   return sensors.filter((sensor) => sensor.aligned && (sensor.residual_m ?? 0) > LARGE_RESIDUAL_M);
 }
 
+const UNKNOWN: Standing = { mark: "busy", words: "wizard.unknown", values: {} };
+
 const JUDGES: Record<Step, (facts: Facts) => Standing> = {
-  sensors: ({ sensors }) => {
+  sensors: ({ sensors, isConnected }) => {
+    if (!isConnected) return UNKNOWN;
     const count = sending(sensors).length;
     if (count === 0) return standing("look", "wizard.sensors.none");
     return count < sensors.length
       ? standing("look", "wizard.sensors.silent", { count: sensors.length - count })
       : standing("done", "wizard.sensors.done", { count });
   },
-  person: ({ people }) => {
+  person: ({ people, isConnected }) => {
+    if (!isConnected) return UNKNOWN;
     if (people.length === 0) return standing("look", "wizard.person.none");
     if (people.some((person) => person.isConfirmed)) return standing("done", "wizard.person.chosen");
     return isOpenQuestion(people)
       ? standing("look", "wizard.person.several", { count: people.length })
       : standing("done", "wizard.person.done");
   },
-  alignment: ({ sensors }) => {
+  alignment: ({ sensors, isConnected }) => {
+    if (!isConnected) return UNKNOWN;
     const now = sending(sensors);
     if (now.length === 0) return standing("busy", "wizard.alignment.waits");
     const aligned = now.filter((sensor) => sensor.aligned).length;

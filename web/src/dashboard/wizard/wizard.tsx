@@ -94,7 +94,7 @@ export function Wizard({ patient, plan, session, feed, account, onSigned, onOpen
 /** Another patient's session must be ended first: there is one arm. */
 function Other({ session }: { session: Session }) {
   return (
-    <div class="notice" role="alert">
+    <div class="notice wizard-other" role="alert">
       <span aria-hidden="true">⚠</span>
       <span>{t("wizard.other", { name: session.patient_name })}</span>
       <a class="button" href={hrefOf({ page: "live" })}>

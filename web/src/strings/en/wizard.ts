@@ -94,4 +94,6 @@ export const wizard = {
   "wizard.range.pushed": "The last session went well, so they ask for a little more.",
   "wizard.picture.trail": "Pale spots: where the healthy hand has been.",
   "wizard.ready.screen.there": "✓ The patient's screen is connected.",
+  "wizard.unknown": "waits for the service",
+  "wizard.lost": "The service is not heard now. This page goes on by itself as soon as it is.",
 } as const;

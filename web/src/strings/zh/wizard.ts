@@ -92,4 +92,6 @@ export const wizard: Record<keyof typeof english, string> = {
   "wizard.range.pushed": "上次治疗完成得很好，因此要求略有增加。",
   "wizard.picture.trail": "浅色点：健侧手到过的位置。",
   "wizard.ready.screen.there": "✓ 患者屏幕已连接。",
+  "wizard.unknown": "等待服务",
+  "wizard.lost": "目前收不到服务的消息。恢复后本页会自动继续。",
 };
