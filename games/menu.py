@@ -98,11 +98,6 @@ class Menu:
     def _is_at(self, wish: Wish, hand: Point) -> bool:
         return distance_m(hand, self._spots[wish]) <= self._radius_m
 
-    def _has_come(self, inside: bool) -> bool:
-        """Whether the hand is at the pause and was not already there when it was first offered."""
-        self._was_there = inside and (self._was_there or Wish.PAUSE not in self._progress)
-        return inside and not self._was_there
-
     def _is_clear(self, view: GameView) -> bool:
         spot = self._spots[Wish.PAUSE]
         if view.way:
