@@ -79,6 +79,8 @@ class Course:
         """The games; they are opened when the arm is first engaged."""
         self.games_asked = False
         """The games are being opened, or open: what they begin with is decided."""
+        self.games_broke = False
+        """A game made a mistake of its own: the games stand still, and what was played is kept."""
         self._state = DriveState.OFF
         self._t_s = opening.t_started_s
         self._asked_s = -inf
@@ -105,7 +107,7 @@ class Course:
         if self.meter is not None:
             self.meter.take(tick)
         engaged = tick.state is DriveState.ENGAGED
-        if self.playing is not None and not self.saving:
+        if self.playing is not None and not self.saving and not self.games_broke:
             self.playing.step(tick, dt_s, active=engaged and not self.screens.is_lost)
         return self.picture
 

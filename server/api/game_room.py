@@ -7,6 +7,7 @@ import logging
 
 from fastapi.concurrency import run_in_threadpool
 
+from games.game import GameView
 from server.api.authority import Presence
 from server.api.course import Course, counted
 from server.api.journal import Journal
@@ -30,12 +31,23 @@ class GameRoom:
     def step(self, course: Course, tick: LiveTick) -> None:
         """Take a tick."""
         self._look_for_screens(course)
-        before, after = course.picture, course.step(tick)
+        before, after = course.picture, self._stepped(course, tick)
         if after is not None and counted(after) != counted(before):
             self._journal.note_score(course.opening.id, after)
         if course.lacks_games:
             course.games_asked = True
             self._opening = asyncio.create_task(self._open(course, tick), name="games")
+
+    def _stepped(self, course: Course, tick: LiveTick) -> GameView | None:
+        """A game's mistake costs the games; without a tick the pages would be taken for lost, and the arm be held."""
+        try:
+            return course.step(tick)
+        except Exception as error:
+            if not course.games_broke:
+                log.exception("the games of session %d have ended by a mistake", course.opening.id)
+                self._journal.note(course.opening.id, "no games", f"the program made a mistake in a game: {error}")
+            course.games_broke = True
+            return course.picture
 
     async def close(self, course: Course) -> None:
         """No more is played: whatever was is written down."""

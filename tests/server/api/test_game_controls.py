@@ -211,6 +211,22 @@ def test_a_screen_whose_cable_is_pulled_is_missed_as_well(in_play, therapist, lo
     until(lambda: view(in_play)["phase"] == "playing")
 
 
+def test_a_mistake_in_a_game_costs_the_games_and_nothing_else(in_play, therapist, monkeypatch, caplog):
+    def mistaken(*_, **__):
+        raise ZeroDivisionError("a game's own")
+
+    monkeypatch.setattr("games.programme.Programme.step", mistaken)
+    events = f"{in_play.path}/events"
+    until(lambda: "no games" in [event["kind"] for event in therapist.get(events).json()])
+    seen = len(in_play.messages)
+    until(lambda: len(in_play.messages) > seen + 5)
+    assert in_play.messages[-1]["tick"]["state"] == "engaged"
+    assert view(in_play)["phase"] == "playing"
+    ended = in_play.post(f"{in_play.path}/end").raise_for_status().json()
+    assert [one["game"] for one in ended["played"]] == ["reach"]
+    assert [record.levelname for record in caplog.records if "by a mistake" in record.message] == ["ERROR"]
+
+
 def test_what_was_played_is_kept_and_replays_to_the_same(shared, in_play, therapist):
     time.sleep(0.5)
     wish(in_play, "pin", level=0.8).raise_for_status()

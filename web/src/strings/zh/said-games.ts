@@ -61,5 +61,6 @@ export const CHINESE_OF_GAMES: readonly [RegExp, string][] = [
   [/^measured with the healthy arm$/, "已用健侧手臂测量"],
   [/^the form: value error, the scale of [a-z-]+ ends at (\d+)$/, "该评分最高为 {1}"],
   [/^the form: value error, the day of the test is still to come$/, "测试日期还没有到"],
+  [/^the program made a mistake in a game: (.+)$/, "游戏程序出错：{1}"],
   [/^the form: value error, the plan begins more than a year from now$/, "计划的开始日期在一年以后"],
 ];
