@@ -13,7 +13,7 @@ from games.levels import between, evenly_between
 from games.workspace import distance_m
 
 EASY_LENGTH, HARD_LENGTH = 0.6, 1.0
-EASY_TIME_S, HARD_TIME_S = 14.0, 1.6
+EASY_TIME_S, HARD_TIME_S = 14.0, 1.1
 EASY_RADIUS_M, HARD_RADIUS_M = 0.08, 0.04
 EASY_APART_M, HARD_APART_M = 0.3, 0.06
 RADIUS_SHARE: Final = 0.3

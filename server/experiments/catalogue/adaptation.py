@@ -24,10 +24,10 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-PLAYERS: Final = 6
+PLAYERS: Final = 4
 """Of each ability, each with a seed and a side of its own."""
 LEAST_PLAYERS: Final = 2
-LENGTH_S: Final = 600.0
+LENGTH_S: Final = 480.0
 LEAST_S: Final = 45.0
 STEP_S: Final = 0.1
 """The slowest that a game is ever stepped: what becomes of an attempt does not hang on it."""
@@ -239,7 +239,7 @@ EXPERIMENT = Experiment(
     "Games: do they adapt to 75 % success?",
     "The goal: success near 75 %, within 7 points, for a weak, a middling and a quick hand in every game, by the "
     "weighted up-down staircase of Kaernbach (1991).",
-    "Virtual players of three abilities (reaction, speed, tremor, lapses) play every game for ten minutes without "
+    "Virtual players of three abilities (reaction, speed, tremor, lapses) play every game for eight minutes without "
     "rests, from the level at which a session begins, half of them with either arm. The share of successes in "
     "the later half of each player's attempts is judged; its uncertainty is that of the mean over players.",
     run,
