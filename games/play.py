@@ -139,8 +139,7 @@ class Play:
         """One step of play."""
         if state.phase is not Phase.PLAYING:
             return state
-        eased = EASED if state.posture.said else 0.0
-        ended = self._rules.step(PlayInput(dt_s, state.hand, given.healthy_hand, max(state.level - eased, 0.0)))
+        ended = self._rules.step(PlayInput(dt_s, state.hand, given.healthy_hand, _asked(state)))
         state = replace(state, attempt=self._attempt(state, dt_s, is_over=bool(ended)))
         for one in ended:
             state = self._counted(state, one)
@@ -149,11 +148,9 @@ class Play:
     def _attempt(self, state: State, dt_s: float, *, is_over: bool) -> Attempt | None:
         """The attempt under way one step later; the rules may have begun another one."""
         number, before = self._rules.scene().trial, state.attempt
-        if before is None:
-            return Attempt(number, state.hand, state.hand) if number else None
-        if is_over or before.number == number:
+        if before is not None and (is_over or before.number == number):
             return before.after(state.hand, dt_s)
-        return Attempt(number, state.hand, state.hand) if number else None
+        return _set_out(state, number) if number else None
 
     def _counted(self, state: State, ended: Ended) -> State:
         self._keep(state, ended)
@@ -163,8 +160,8 @@ class Play:
         return replace(counted, rest_suggested=counted.rest_suggested or is_tired(self._movements))
 
     def _keep(self, state: State, ended: Ended) -> None:
-        attempt = state.attempt or Attempt(0, state.hand, state.hand)
-        self._trials.append(trial_of(attempt, ended, len(self._trials) + 1, self._name, state.level))
+        attempt = state.attempt or _set_out(state, 0)
+        self._trials.append(trial_of(attempt, ended, len(self._trials) + 1, self._name))
         movement = movement_of(attempt)
         if movement is not None:
             self._movements.append(movement)
@@ -211,6 +208,15 @@ class Play:
     def _over(self, state: State) -> State:
         self._rules.clear()
         return replace(state, phase=Phase.OVER, attempt=None, time_left_s=0.0, feedback=(*state.feedback, "over"))
+
+
+def _asked(state: State) -> float:
+    """The level of attempts that begin now."""
+    return max(state.level - EASED, 0.0) if state.posture.said else state.level
+
+
+def _set_out(state: State, number: int) -> Attempt:
+    return Attempt(number, state.hand, state.hand, _asked(state))
 
 
 def _levelled(state: State, given: GameInput) -> State:

@@ -59,6 +59,8 @@ class Programme:
         self._current = 0
         self._between_s: float | None = None
         self._quit = False
+        self._earned = 0
+        """Points of the exercises before this one."""
         self._view = self._seen(self._games[0].view())
 
     @property
@@ -110,6 +112,7 @@ class Programme:
 
     def _opened(self, given: GameInput) -> GameView:
         """The next exercise, begun: who has come this far need not start it once more."""
+        self._earned += self._games[self._current].view().score
         self._current, self._between_s = self._current + 1, None
         return self._games[self._current].step(replace(given, wish=Wish.START))
 
@@ -131,7 +134,7 @@ class Programme:
             exercise=self._current + 1,
             exercises=len(self._games),
             next_game=self._exercises[self._current + 1].game if self._has_next and not self._quit else "",
-            total_score=sum(game.view().score for game in self._games[: self._current + 1]),
+            total_score=self._earned + view.score,
         )
         offered = self._menu.offered(staged, has_next=self._has_next)
         choices = self._menu.views(offered)

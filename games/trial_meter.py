@@ -22,6 +22,8 @@ class Attempt:
     number: int
     start: Point
     hand: Point
+    level: float
+    """At which it began: what is pinned or eased meanwhile is for the next one."""
     age_s: float = 0.0
     path_m: float = 0.0
     set_out_s: float | None = None
@@ -49,14 +51,14 @@ class Attempt:
         return None if self.set_out_s is None else self.age_s - self.set_out_s
 
 
-def trial_of(attempt: Attempt, ended: Ended, number: int, game: str, level: float) -> Trial:
+def trial_of(attempt: Attempt, ended: Ended, number: int, game: str) -> Trial:
     """What is kept of an attempt that ended."""
     far_enough = attempt.way_m >= LEAST_WAY_M
     return Trial(
         number=number,
         game=game,
         success=ended.success,
-        level=level,
+        level=attempt.level,
         duration_s=attempt.age_s,
         reaction_s=attempt.set_out_s,
         movement_s=attempt.movement_s,

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from games.catalogue import open_game
 from games.game import GameInput, GameSettings, GameView, Phase, Point, Wish, Workspace
 from games.play import BEGINS_AFTER_S, GRACE_S, LARGEST_BONUS, Play
-from games.posture import LASTS_S, LEAN_M
+from games.posture import EASED, LASTS_S, LEAN_M
 from games.reach import POINTS
 
 DT_S = 0.05
@@ -174,6 +174,9 @@ def test_leaning_is_said_and_makes_what_comes_next_easier(usual: Workspace) -> N
     view = leaning(FAR)
     assert view.things[0].radius_m > upright.things[0].radius_m
     assert view.level == 0.5
+    while view.hits < 2:
+        view = leaning(view.things[0].position if view.things else FAR)
+    assert [trial.level for trial in game.trials] == [0.5, pytest.approx(0.5 - EASED)]
 
 
 def test_of_every_attempt_is_kept_when_the_hand_set_out_and_how_it_went(usual: Workspace) -> None:
