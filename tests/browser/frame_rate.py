@@ -60,11 +60,12 @@ const first = messages[0];
 const lasts_s = messages.at(-1).tick.t_s - first.tick.t_s + 1 / 60;
 let next = 0;
 // Round after round time goes on and nothing is counted back: to the page that would be another game.
+// Nor does a station come late that is not there.
 const said = () => {
   const round = Math.floor(next / messages.length);
   const { tick, game, session } = messages[next++ % messages.length];
   const { hits, misses, score, total_score } = first.game;
-  const later = { ...tick, index: next, t_s: tick.t_s + round * lasts_s };
+  const later = { ...tick, index: next, t_s: tick.t_s + round * lasts_s, timing: first.tick.timing };
   return JSON.stringify({ tick: later, game: { ...game, hits, misses, score, total_score }, session });
 };
 window.WebSocket = class {
@@ -131,6 +132,7 @@ def beside_the_station(browser: Browser, address: str, game: str, seconds: int) 
         if play.locator("#play").get_attribute("data-face") == "waiting":
             ask(page, "POST", f"/api/sessions/{session}/game", {"wish": "start"})
         play.wait_for_timeout(250)
+    page.goto(f"{address}/#/")  # the live page's 3-D view would be drawn by the same processor
     measure(play, f"{game}, station running", "#play", seconds)
     heard = play.evaluate("window.heard")
     ask(page, "POST", f"/api/sessions/{session}/end", {"pain_after": 1})
