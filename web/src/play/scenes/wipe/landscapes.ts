@@ -1,5 +1,5 @@
 // The landscapes behind the mist, one after the other.
-import { type CanvasTexture, LinearFilter } from "three";
+import { type CanvasTexture, LinearFilter, NoColorSpace } from "three";
 import { painted } from "../../textures";
 import { blossom } from "./pictures/blossom";
 import { HEIGHT, WIDTH } from "./pictures/brush";
@@ -24,6 +24,8 @@ export function nextLandscape(number: number): CanvasTexture {
     landscape(brush);
   });
   texture.generateMipmaps = false;
+  // Its colours go to the screen as they are (glass.ts).
+  texture.colorSpace = NoColorSpace;
   texture.minFilter = LinearFilter;
   return texture;
 }

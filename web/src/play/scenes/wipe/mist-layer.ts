@@ -1,7 +1,7 @@
 // The mist as a small picture that lies on the glass: it hides the landscape but for its colours, its edges are ruffled,
 // and what belongs to the patch is outlined and hatched. Painted by the processor, and only where something changed: a
 // shader would be computed for every point of the screen, which a machine without a graphics card cannot bear.
-import { DataTexture, LinearFilter, RGBAFormat, SRGBColorSpace } from "three";
+import { DataTexture, LinearFilter, RGBAFormat } from "three";
 import type { Cells } from "./cells";
 
 /** Points of the picture along a cell's side. */
@@ -35,7 +35,6 @@ export class MistLayer {
     this.mist = new Float32Array(columns * rows);
     this.patch = new Float32Array(columns * rows);
     this.texture = new DataTexture(this.bytes, this.width, this.height, RGBAFormat);
-    this.texture.colorSpace = SRGBColorSpace;
     this.texture.magFilter = LinearFilter;
     this.texture.minFilter = LinearFilter;
   }
