@@ -80,7 +80,7 @@ class Figures:
             return ()
         try:
             again = play_again(games)
-        except MirrorlimbError as error:
+        except Exception as error:  # also a mistake in a game: it would be made again at every start
             log.warning("no figures of the games of session %d: %s", found.id, error)
             return ()
         if not found.played:

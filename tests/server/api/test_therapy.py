@@ -336,6 +336,20 @@ def test_a_session_that_a_crash_left_open_is_measured_at_the_next_start(
         assert person.get("/api/sessions/current").json() is None
 
 
+def test_a_game_that_fails_when_it_is_played_again_costs_its_own_figures_alone(
+    tmp_path, serving, logged_in, left_open, monkeypatch
+):
+    def mistaken(*_, **__):
+        raise ZeroDivisionError("a game's own")
+
+    monkeypatch.setattr("games.programme.Programme.step", mistaken)
+    with serving(tmp_path) as second, logged_in(second) as person:
+        path = f"/api/sessions/{left_open['id']}"
+        recovered = until(lambda: (found := person.get(path).json())["measured"] and found)
+        assert recovered["metrics"]
+        assert recovered["played"] == []
+
+
 @pytest.fixture
 def impatient(monkeypatch):
     """A database that waits for nobody."""
