@@ -10,13 +10,19 @@ import { PainScale } from "./pain-scale";
 /** The service refuses more. */
 const LONGEST_NOTE = 10_000;
 
-export function Afterwards({ session }: { session: SessionDetail }) {
+interface Props {
+  session: SessionDetail;
+  onChanged: () => void;
+}
+
+export function Afterwards({ session, onChanged }: Props) {
   const [pain, setPain] = useState(session.pain_after ?? null);
   const doing = useDoing();
   const keep = (form: SessionUpdate, onKept: () => void) =>
     doing.run(async () => {
       await changeSession(session.id, form);
       onKept();
+      onChanged();
     });
   const feel = (chosen: number | null) => chosen !== null && keep({ pain_after: chosen }, () => setPain(chosen));
   return (

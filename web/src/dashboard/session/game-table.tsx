@@ -12,7 +12,7 @@ export function GameTable({ metrics }: { metrics: readonly Metric[] }) {
         <table>
           <thead>
             <tr>
-              <th />
+              <td />
               {games.map((game) => (
                 <th class="number" key={game.joint}>
                   {jointOf(game)}

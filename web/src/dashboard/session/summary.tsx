@@ -24,7 +24,7 @@ export function SummaryPage({ id }: { id: number }) {
       {session.value && (
         <div class="columns">
           <PlayedGames played={session.value.played} />
-          <Afterwards key={session.value.id} session={session.value} />
+          <Afterwards key={session.value.id} session={session.value} onChanged={session.again} />
         </div>
       )}
       {session.value && (
