@@ -5,9 +5,9 @@ import { t } from "../../strings";
 import { figure, sentence, thousandths } from "../format";
 import { useAsked } from "../hooks";
 import { type Feed, useFromFeed } from "./feed";
+import { isSilent } from "./silent";
 import "./sensors.css";
 
-const SILENT_AFTER_S = 1;
 export const JOINT_COUNT = 25;
 
 export function Sensors({ feed }: { feed: Feed }) {
@@ -75,7 +75,7 @@ function Row({ sensor }: { sensor: SensorView }) {
 }
 
 export function stateOf(sensor: SensorView): string {
-  if (sensor.age_s > SILENT_AFTER_S) return `✕ ${t("sensor.silent")}`;
+  if (isSilent(sensor)) return `✕ ${t("sensor.silent")}`;
   if (!sensor.aligned) return `… ${t("sensor.aligning")}`;
   return `✓ ${t(sensor.is_reference ? "sensor.reference" : "sensor.aligned")}`;
 }

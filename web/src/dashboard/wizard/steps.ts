@@ -2,6 +2,7 @@
 import type { SensorView, Side } from "../../api/types";
 import type { Key } from "../../strings";
 import { isOpenQuestion, type Person } from "../live/people";
+import { isSilent } from "../live/silent";
 
 /** In order; the session is opened after `limits`. */
 export const STEPS = ["sensors", "person", "alignment", "arm", "limits", "range", "ready"] as const;
@@ -32,8 +33,6 @@ export interface Standing {
   values: Record<string, string | number>;
 }
 
-/** Without a frame for so long a sensor counts as silent. */
-export const SILENT_AFTER_S = 1;
 /** Aligned, yet further from the reference's body than this: about the width of a wrist. */
 export const LARGE_RESIDUAL_M = 0.08;
 
@@ -48,7 +47,7 @@ export function firstToDo(facts: Facts): Step {
 
 /** Sensors that send now. */
 export function sending(sensors: readonly SensorView[]): SensorView[] {
-  return sensors.filter((sensor) => sensor.age_s <= SILENT_AFTER_S);
+  return sensors.filter((sensor) => !isSilent(sensor));
 }
 
 /** Sensors that see the patient at another place than the reference does. */
