@@ -104,17 +104,19 @@ class Programme:
         if given.wish is Wish.QUIT:
             self._between_s, self._quit = None, True
             return self._games[self._current].view()
+        if given.wish is Wish.PAUSE:
+            return self._opened(given, Wish.PAUSE)
         left_s = (self._between_s or 0.0) - (min(max(given.dt_s, 0.0), LONGEST_STEP_S) if given.active else 0.0)
         if left_s <= 0.0 or given.wish in (Wish.GO_ON, Wish.NEXT, Wish.START):
             return self._opened(given)
         self._between_s = left_s
         return replace(self._games[self._current].step(replace(given, active=False, wish=Wish.NONE)), feedback=())
 
-    def _opened(self, given: GameInput) -> GameView:
-        """The next exercise, begun: who has come this far need not start it once more."""
+    def _opened(self, given: GameInput, wish: Wish = Wish.START) -> GameView:
+        """The next exercise, begun unless it is wished otherwise: who has come this far need not start it once more."""
         self._earned += self._games[self._current].view().score
         self._current, self._between_s = self._current + 1, None
-        return self._games[self._current].step(replace(given, wish=Wish.START))
+        return self._games[self._current].step(replace(given, wish=wish))
 
     @property
     def _has_next(self) -> bool:

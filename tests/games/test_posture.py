@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from games.posture import GOES_BELOW, HITCH_M, LASTS_S, LEAN_M, UPRIGHT, Posture
+from games.posture import GOES_BELOW, HITCH_M, LASTS_S, LEAN_M, SETTLES_S, UPRIGHT, Posture
 
 DT_S = 0.1
 
@@ -29,3 +29,13 @@ def test_it_does_not_flicker_at_the_threshold() -> None:
 
 def test_what_is_not_known_counts_as_upright() -> None:
     assert after(UPRIGHT, 5.0, float("nan"), float("nan")).said == ""
+
+
+def test_who_has_sat_down_differently_is_measured_from_there_and_back_again() -> None:
+    shifted_m = LEAN_M + 0.02
+    settled = after(UPRIGHT, LASTS_S + SETTLES_S + 1.0, shifted_m)
+    assert settled.said == ""
+    assert after(settled, 5.0, shifted_m + 0.9 * LEAN_M).said == ""
+    assert after(settled, 5.0, shifted_m + 1.1 * LEAN_M).said == "lean"
+    back = after(settled, 5.0, 0.0)
+    assert after(back, 5.0, LEAN_M + 0.01).said == "lean"

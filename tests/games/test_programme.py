@@ -131,6 +131,17 @@ def test_what_comes_next_may_come_at_once(usual: Workspace, wish: Wish) -> None:
     assert (view.exercise, view.phase) == (2, Phase.PLAYING)
 
 
+def test_a_pause_between_two_exercises_waits_with_its_menu(usual: Workspace) -> None:
+    programme = Programme(TWO, usual, 4)
+    while programme.view().phase is not Phase.BETWEEN:
+        programme.step(GameInput(0.1, (9.0, 9.0, 9.0), active=True))
+    programme.step(GameInput(0.1, (9.0, 9.0, 9.0), active=True, wish=Wish.PAUSE))
+    for _ in range(round(2 * BETWEEN_S / 0.1)):
+        view = programme.step(GameInput(0.1, (9.0, 9.0, 9.0), active=True))
+    assert (view.exercise, view.phase) == (2, Phase.PAUSED)
+    assert chosen(programme, Wish.GO_ON).phase is Phase.WAITING
+
+
 def test_quitting_ends_all_exercises(usual: Workspace) -> None:
     programme = Programme(TWO, usual, 4)
     for _ in range(1000):
