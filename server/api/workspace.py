@@ -68,9 +68,9 @@ def _widened(shown: Ends, push_rad: float) -> Ends:
 
 
 def _clipped(wanted: Ends, allowed: Ends) -> Ends:
-    """The part of `wanted` that is allowed; all that is allowed where they have nothing in common."""
-    low, high = max(wanted[0], allowed[0]), min(wanted[1], allowed[1])
-    return (low, high) if low < high else allowed
+    """The part of `wanted` that is allowed, widened to the least range, or to all that is allowed if that is less."""
+    low = min(max(wanted[0], allowed[0]), max(allowed[1] - LEAST_SPAN_RAD, allowed[0]))
+    return low, max(min(wanted[1], allowed[1]), min(low + LEAST_SPAN_RAD, allowed[1]))
 
 
 def _less(joint: JointLimits, margin_rad: float) -> Ends:

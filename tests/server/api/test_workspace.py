@@ -76,6 +76,21 @@ def test_a_single_pose_becomes_a_small_range_about_it():
     assert high - low == pytest.approx(LEAST_SPAN_RAD)
 
 
+@pytest.mark.parametrize(("low_deg", "span_deg"), [(-60.0, 40.0), (130.0, 40.0), (-170.0, 20.0), (160.0, 20.0)])
+@pytest.mark.parametrize("beyond_deg", [-0.2, 0.0, 0.2])
+def test_a_range_at_the_edge_of_what_is_allowed_is_still_one_to_play_in(low_deg, span_deg, beyond_deg):
+    """Of what is shown, nothing or a fraction of a degree is allowed."""
+    allowed = some(-20 + beyond_deg, 130 + beyond_deg)
+    low, high = ends(shown_workspace(some(low_deg, low_deg + span_deg), LIMITS, allowed).used, "elbow")
+    assert high - low == pytest.approx(LEAST_SPAN_RAD)
+    assert degrees(low) == pytest.approx(-20 + beyond_deg) or degrees(high) == pytest.approx(130 + beyond_deg)
+
+
+def test_where_less_is_allowed_than_a_game_needs_all_of_it_is_used():
+    allowed = some(30, 36)
+    assert shown_workspace(some(34, 80), LIMITS, allowed).used == allowed
+
+
 def test_where_nobody_has_measured_the_games_have_the_limits():
     assert first_workspace(None, (), ALLOWED) == first_workspace(LIMITS, (), ALLOWED) == LIMITS
 
