@@ -9,6 +9,8 @@ export interface Effort {
 /** Slower than this share of the rate asked for is slow. */
 const SLOW_SHARE = 0.8;
 const WINDOW_S = 1;
+/** A busy machine makes a single tick late now and then. */
+const LATE_TICKS = 4;
 /** So many slow windows in a row: less is asked for. */
 const SLOW_WINDOWS = 2;
 /** So many good windows in a row: more is tried; twice as many after each time that it was too much. */
@@ -35,7 +37,7 @@ export class Pace {
   private slow = 0;
   private good = 0;
   private patience = GOOD_WINDOWS;
-  private strained = false;
+  private late = 0;
   private last_s: number | null = null;
 
   /** Begins with the effort of that index. */
@@ -53,9 +55,9 @@ export class Pace {
     return this.last_s === null || now_s - this.last_s >= 0.75 / this.effort.fps;
   }
 
-  /** Something else on this machine comes too late: this window counts as slow. */
-  strain(): void {
-    this.strained = true;
+  /** Something else on this machine came too late, so many times more; several in a window, and it counts as slow. */
+  strain(late: number): void {
+    this.late += late;
   }
 
   /** Counts a frame drawn at `now_s`; true when another effort is to be made from now on. */
@@ -71,13 +73,13 @@ export class Pace {
   private restart(): false {
     this.frames = 0;
     this.window_s = 0;
-    this.strained = false;
+    this.late = 0;
     return false;
   }
 
   private closeWindow(): boolean {
     this.fps = this.frames / this.window_s;
-    const isSlow = this.strained || this.fps < SLOW_SHARE * this.effort.fps;
+    const isSlow = this.late >= LATE_TICKS || this.fps < SLOW_SHARE * this.effort.fps;
     this.restart();
     this.slow = isSlow ? this.slow + 1 : 0;
     this.good = isSlow ? 0 : this.good + 1;

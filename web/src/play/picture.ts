@@ -81,9 +81,7 @@ export class Picture {
 
   /** Keeps a message that arrived at `now_s`. */
   take(message: LiveMessage, now_s: number): void {
-    if (this.stage.isSoftware && message.tick.timing.overruns > (this.newest?.tick.timing.overruns ?? Infinity)) {
-      this.pace.strain();
-    }
+    if (this.stage.isSoftware) this.pace.strain(lateTicks(this.newest, message));
     this.newest = message;
     this.arrived_s = now_s;
     this.limbs.take(message.tick, now_s);
@@ -179,6 +177,11 @@ export class Picture {
     };
     for (const [name, value] of Object.entries(marks)) setData(this.page, name, value);
   }
+}
+
+/** How many ticks of the station came late between two messages. */
+function lateTicks(before: LiveMessage | null, after: LiveMessage): number {
+  return before ? Math.max(0, after.tick.timing.overruns - before.tick.timing.overruns) : 0;
 }
 
 /** "x y z" in metres. */
