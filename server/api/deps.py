@@ -21,6 +21,7 @@ from server.api.authority import PAGE_NAME, Client
 from server.api.controls import Controls
 from server.api.errors import ApiError, not_found
 from server.api.figures import Figures
+from server.api.forms import Number
 from server.api.game_controls import GameControls
 from server.api.service import Service
 from server.api.therapy import Therapy
@@ -96,7 +97,7 @@ async def get_therapist(account: AccountDep) -> Account:
 TherapistDep = Annotated[Account, Depends(get_therapist)]
 
 
-def get_patient(patient_id: int, _: TherapistDep, session: SessionDep) -> Patient:
+def get_patient(patient_id: Number, _: TherapistDep, session: SessionDep) -> Patient:
     """The patient whom the address names, for those who treat; 404 where there is none."""
     patient = patients.find_patient(session, patient_id)
     if patient is None:

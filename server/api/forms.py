@@ -14,6 +14,8 @@ from db.therapy_session import LimitsSnapshot
 from server.messages import Assistance, DriveState
 
 Pain = Annotated[int, Field(ge=0, le=10)]
+Number = Annotated[int, Field(ge=0, le=2**53 - 1)]
+"""What names a patient, a session or a score: at most what a page holds exactly; the database holds more."""
 NAME = "Dr. Lin"
 PASSWORD_EXAMPLE = "three quiet herons"  # noqa: S105 (an example, opens nothing)
 
@@ -67,7 +69,7 @@ class DemoWelcome(BaseModel):
 class SessionOpen(Form):
     """Opening a session; the affected side is said once more so that a slip is found before the arm moves."""
 
-    patient_id: int
+    patient_id: Number
     confirmed_affected_side: SideName
     exercises: tuple[Exercise, ...] | None = Field(default=None, min_length=1, max_length=12)
     """Null = the patient's plan; without one, six minutes of reach."""

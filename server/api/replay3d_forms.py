@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from server.api.forms import Number
 from server.messages import DriveState
 
 
 class ReplayForm(BaseModel):
     """Which session is shown, and how it runs from now on."""
 
-    session_id: int
+    session_id: Number
     t_s: float | None = Field(default=None, ge=0, description="Go there; null = go on from where it stands.")
     playing: bool = True
     speed: float = Field(default=1.0, ge=0.1, le=8.0, description="1 = as it was.")

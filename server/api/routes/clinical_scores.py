@@ -8,6 +8,7 @@ from db.clinical_score import ClinicalScore, ClinicalScoreForm, ClinicalScorePub
 from db.queries import clinical_scores
 from server.api.deps import PatientDep, SessionDep, TherapistDep
 from server.api.errors import answers, not_found
+from server.api.forms import Number
 
 router = APIRouter(prefix="/patients/{patient_id}/scores", tags=["scores"])
 
@@ -27,7 +28,7 @@ def add_score(
 
 
 @router.delete("/{number}", status_code=204, responses=answers(401, 403, 404, 422, 503))
-def remove_score(number: int, patient: PatientDep, session: SessionDep) -> None:
+def remove_score(number: Number, patient: PatientDep, session: SessionDep) -> None:
     """Take back a score that was entered wrongly."""
     if not clinical_scores.remove_score(session, patient.id or 0, number):
         raise not_found("score", number)

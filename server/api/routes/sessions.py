@@ -16,6 +16,7 @@ from server.api.forms import (
     Curves,
     Follow,
     MeasuredRange,
+    Number,
     SessionEnd,
     SessionOpen,
     TakeOver,
@@ -45,13 +46,13 @@ async def read_authority(_: AccountDep, controls: ControlsDep) -> AuthorityPubli
 
 
 @router.get("/{session_id}", responses=answers(401, 403, 404, 422, 503))
-def read_session(session_id: int, _: TherapistDep, session: SessionDep) -> SessionDetail:
+def read_session(session_id: Number, _: TherapistDep, session: SessionDep) -> SessionDetail:
     """A session with its metrics."""
     return _existing(session, session_id)
 
 
 @router.patch("/{session_id}", responses=answers(401, 403, 404, 422, 503))
-def change_session(session_id: int, form: SessionUpdate, _: TherapistDep, session: SessionDep) -> SessionDetail:
+def change_session(session_id: Number, form: SessionUpdate, _: TherapistDep, session: SessionDep) -> SessionDetail:
     """Note something about the session, or the pain afterwards; whatever is left out stays."""
     found = sessions.find_session(session, session_id)
     if found is None:
@@ -61,20 +62,20 @@ def change_session(session_id: int, form: SessionUpdate, _: TherapistDep, sessio
 
 
 @router.get("/{session_id}/curves", responses=answers(401, 403, 404, 422, 503))
-async def read_curves(session_id: int, _: TherapistDep, figures: FiguresDep) -> Curves:
+async def read_curves(session_id: Number, _: TherapistDep, figures: FiguresDep) -> Curves:
     """The angles of both arms over the session."""
     return await figures.curves(session_id)
 
 
 @router.get("/{session_id}/events", responses=answers(401, 403, 404, 422, 503))
-def read_events(session_id: int, _: TherapistDep, session: SessionDep) -> list[EventPublic]:
+def read_events(session_id: Number, _: TherapistDep, session: SessionDep) -> list[EventPublic]:
     """What happened in the session, in order."""
     _existing(session, session_id)
     return [EventPublic.model_validate(event) for event in sessions.events_of(session, session_id)]
 
 
 @router.post("/{session_id}/control", responses=answers(401, 404, 409, 422, 503))
-async def control(session_id: int, form: Control, client: ClientDep, controls: ControlsDep) -> Answer:
+async def control(session_id: Number, form: Control, client: ClientDep, controls: ControlsDep) -> Answer:
     """Start, hold, resume, stop or reset the arm, or say that it hurts. 409 with the reason where that is refused.
     Hold, stop and pain are for everybody who is logged in, the rest for the page in charge.
     """
@@ -82,21 +83,21 @@ async def control(session_id: int, form: Control, client: ClientDep, controls: C
 
 
 @router.post("/{session_id}/assistance", responses=answers(401, 404, 409, 422, 503))
-async def help_arm(session_id: int, form: AssistanceForm, client: ClientDep, controls: ControlsDep) -> Answer:
+async def help_arm(session_id: Number, form: AssistanceForm, client: ClientDep, controls: ControlsDep) -> Answer:
     """Choose how, and how much at most, the drive helps from now on; only for the page in charge."""
     return await controls.help(session_id, form, client)
 
 
 @router.post("/{session_id}/authority", responses=answers(401, 403, 404, 409, 422, 503))
 async def take_over(
-    session_id: int, form: TakeOver, _: TherapistDep, client: ClientDep, controls: ControlsDep
+    session_id: Number, form: TakeOver, _: TherapistDep, client: ClientDep, controls: ControlsDep
 ) -> AuthorityPublic | None:
     """Take over. While another page is in charge and connected, this must be confirmed. A moving arm is held."""
     return await controls.take(session_id, form.confirmed, client)
 
 
 @router.post("/{session_id}/measured-range", responses=answers(401, 404, 409, 422, 503))
-async def measure_range(session_id: int, client: ClientDep, controls: ControlsDep) -> MeasuredRange:
+async def measure_range(session_id: Number, client: ClientDep, controls: ControlsDep) -> MeasuredRange:
     """Begin anew to measure how far the patient moves the arm unaided; only for the page in charge, and only while
     the arm is engaged and moves freely.
     """
@@ -104,19 +105,19 @@ async def measure_range(session_id: int, client: ClientDep, controls: ControlsDe
 
 
 @router.get("/{session_id}/measured-range", responses=answers(401, 404, 409, 422, 503))
-async def read_measured_range(session_id: int, _: AccountDep, controls: ControlsDep) -> MeasuredRange:
+async def read_measured_range(session_id: Number, _: AccountDep, controls: ControlsDep) -> MeasuredRange:
     """What has been measured since; a proposal for the patient's passive range, for a person to confirm."""
     return controls.measured_range(session_id)
 
 
 @router.post("/{session_id}/follow", responses=answers(401, 404, 409, 422, 503))
-async def follow(session_id: int, form: Follow, client: ClientDep, controls: ControlsDep) -> Answer:
+async def follow(session_id: Number, form: Follow, client: ClientDep, controls: ControlsDep) -> Answer:
     """Say which body of a sensor is the patient; only for the page in charge."""
     return await controls.follow(session_id, form, client)
 
 
 @router.post("/{session_id}/end", responses=answers(401, 404, 409, 422, 503))
-async def end_session(session_id: int, form: SessionEnd, client: ClientDep, therapy: TherapyDep) -> SessionDetail:
+async def end_session(session_id: Number, form: SessionEnd, client: ClientDep, therapy: TherapyDep) -> SessionDetail:
     """Stop, finish the recording, compute the metrics and store them; only for the page in charge."""
     return await therapy.end(session_id, form.pain_after, client)
 
