@@ -16,13 +16,17 @@ from games.workspace import HIGHEST_M, IN_FRONT_M, LOWEST_M, reachable
 
 COLUMNS, ROWS = 13, 9
 """Odd, so that a cell is in the middle."""
-SMALLEST_CELL_M, LARGEST_CELL_M = 0.025, 0.06
+SMALLEST_CELL_M, LARGEST_CELL_M = 0.01, 0.06
 TILT_RAD: Final = 0.65
 """The upper edge leans away: the pane faces the eyes, and reaching up it the arm stretches ahead."""
-DRAWN: Final = 240
-"""Places drawn to see where the reachable space is."""
+DRAWN, MORE = 240, 1200
+"""Places drawn to see where the reachable space is, and to see which cells they are in."""
 INNER: Final = (2.0, 98.0)
 """Percentiles between which the pane spans it."""
+ON_M: Final = 0.03
+"""A place this near the pane is on it ..."""
+WITHIN: Final = 0.6
+"""... and within a cell where it is so many of its sides from the middle: less than the smallest wiper's radius."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,6 +40,8 @@ class Pane:
     """(ROWS * COLUMNS, 3) m, the cells' middles."""
     is_reachable: NDArray[np.bool_]
     """(ROWS * COLUMNS,)"""
+    aims: Floats
+    """(ROWS * COLUMNS, 3) m, where the hand is brought for each cell: its middle, or the nearest known place within."""
 
     def beyond_m(self, hand: Point) -> float:
         """How far the hand is behind the pane; negative = before it."""
@@ -64,18 +70,46 @@ def pane(workspace: Workspace, rng: np.random.Generator) -> Pane:
         workspace: where the hand can go.
         rng: the game's own.
     """
-    drawn = np.array([reach.position for reach in reachable(workspace, DRAWN, rng)])
-    places = _in_sight(workspace, drawn) @ _AXES.T  # (n, 3) as right, up, out
+    first = _drawn(workspace, DRAWN, rng)
+    middle = _middle(first)
+    known = np.concatenate([first, _drawn(workspace, MORE, rng)]) - middle
+    on_it = known[np.abs(known[:, 2]) <= ON_M]
+    cell_m = _cell_m(on_it)
+    steps = _steps(cell_m) * (OUTWARD[workspace.side], 1.0)
+    centre = middle @ _AXES
+    cells = centre + steps @ _AXES[:2]
+    exact = _reachable(workspace, cells)
+    within, nearest = _known_within(steps, on_it, cell_m)
+    aims = np.where(exact[:, np.newaxis], cells, centre + on_it[nearest] @ _AXES)
+    x, y, z = centre.tolist()
+    return Pane((x, y, z), cell_m, cells, exact | within, aims)
+
+
+def _drawn(workspace: Workspace, count: int, rng: np.random.Generator) -> Floats:
+    """(n, 3) m: rightward, upward and out of the pane, of so many reachable places those in sight."""
+    drawn = np.array([reach.position for reach in reachable(workspace, count, rng)])
+    return np.asarray(_in_sight(workspace, drawn) @ _AXES.T)
+
+
+def _middle(places: Floats) -> Floats:
+    """(3,) that of (n, 3) places which is nearest to the middle of them all."""
     low, high = np.percentile(places, INNER, axis=0)
     wished = np.array([(low[0] + high[0]) / 2.0, (low[1] + high[1]) / 2.0, float(np.median(places[:, 2]))])
-    middle = places[int(np.argmin(np.linalg.norm(places - wished, axis=1)))]
-    wanted_m = float(max((high[:2] - low[:2]) / (COLUMNS, ROWS)))
+    return np.asarray(places[int(np.argmin(np.linalg.norm(places - wished, axis=1)))])
+
+
+def _cell_m(on_it: Floats) -> float:
+    """So that the cells span these (n, 3) places on the pane."""
+    low, high = np.percentile(on_it[:, :2], INNER, axis=0)
+    wanted_m = float(max((high - low) / (COLUMNS, ROWS)))
     # Rounded, so that both sides' cells are equal to the last digit.
-    cell_m = round(min(max(wanted_m, SMALLEST_CELL_M), LARGEST_CELL_M), 4)
-    centre = middle @ _AXES
-    cells = centre + _steps(cell_m) * (OUTWARD[workspace.side], 1.0) @ _AXES[:2]
-    x, y, z = centre.tolist()
-    return Pane((x, y, z), cell_m, cells, _reachable(workspace, cells))
+    return round(min(max(wanted_m, SMALLEST_CELL_M), LARGEST_CELL_M), 4)
+
+
+def _known_within(steps: Floats, on_it: Floats, cell_m: float) -> tuple[NDArray[np.bool_], NDArray[np.intp]]:
+    """(cells,) whether one of the (n, 3) known places lies within each, and which is nearest to its middle."""
+    aside_m = np.linalg.norm(steps[:, np.newaxis] - on_it[:, :2], axis=2)
+    return aside_m.min(axis=1) <= WITHIN * cell_m, aside_m.argmin(axis=1)
 
 
 def _in_sight(workspace: Workspace, places: Floats) -> Floats:

@@ -32,8 +32,8 @@ from games.rules import Ended, PlayInput, SceneView
 NAME: Final = "wipe"
 EASY_CELLS, HARD_CELLS = 7, 20
 EASY_WIPER_M: Final = 0.07
-HARD_WIPER_CELLS: Final = 0.7
-"""Radius of what the hand wipes: at level 0, and at level 1 in sides of a cell."""
+EASY_WIPER_CELLS, HARD_WIPER_CELLS = 2.0, 0.7
+"""Radius of what the hand wipes: at level 0, there no more than so many sides of a cell; and at level 1 in these."""
 EASY_OFF_M, HARD_OFF_M = 0.15, 0.05
 """The hand wipes this far before the pane ..."""
 BEHIND: Final = 2.0
@@ -90,6 +90,7 @@ class WipeRules:
     def __init__(self, workspace: Workspace, rng: np.random.Generator) -> None:
         self._rng, self._side = rng, workspace.side
         self._pane = pane(workspace, rng)
+        self._easy_wiper_m = min(EASY_WIPER_M, EASY_WIPER_CELLS * self._pane.cell_m)
         self._time = EvenSteps()
         self._patch: Patch | None = None
         self._hand: Point = self._pane.centre
@@ -108,7 +109,7 @@ class WipeRules:
         if patch is None:
             return SceneView(0, (self._drawn(),), None)
         things = (self._drawn(), *self._cells(patch), self._wiper(patch), _timer(patch))
-        x, y, z = self._pane.places[patch.aim].tolist()
+        x, y, z = self._pane.aims[patch.aim].tolist()
         return SceneView(patch.number, things, (x, y, z))
 
     def clear(self) -> None:
@@ -137,7 +138,7 @@ class WipeRules:
             self._mist = self._new_mist()
         cells = self._chosen(round(between(EASY_CELLS, HARD_CELLS, level)))
         aim, cell_m = self._nearest(cells), self._pane.cell_m
-        wiper_m = between(EASY_WIPER_M, HARD_WIPER_CELLS * cell_m, level)
+        wiper_m = between(self._easy_wiper_m, HARD_WIPER_CELLS * cell_m, level)
         rub_s = between(EASY_RUB_S, HARD_RUB_S, level)
         way_m = float(np.linalg.norm(self._pane.places[aim] - self._hand)) + (len(cells) - 1) * cell_m
         at_once = max(pi * (wiper_m / cell_m) ** 2, 1.0)
@@ -161,7 +162,7 @@ class WipeRules:
         from_hand_m = np.linalg.norm(places - np.asarray(self._hand), axis=1)
         noise_m = self._rng.uniform(0.0, self._pane.cell_m, len(places))
         aside_m = np.linalg.norm(places - np.asarray(self._pane.on(self._hand)), axis=1)
-        under_m = np.where(aside_m <= EASY_WIPER_M, UNDER_M, 0.0)
+        under_m = np.where(aside_m <= self._easy_wiper_m, UNDER_M, 0.0)
         cost = self._pane.from_centre_m() + FAR * from_hand_m + noise_m + under_m
         seed = int(misted[np.argmin(cost[misted])])
         from_seed_m = np.linalg.norm(places[misted] - places[seed], axis=1)

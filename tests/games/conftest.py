@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
+from math import radians
 
 import pytest
 
@@ -28,6 +30,21 @@ def workspace(side: Side = Side.RIGHT) -> Workspace:
 def workspace_of() -> Callable[[Side], Workspace]:
     """A usual workspace of a side."""
     return workspace
+
+
+SMALL = {
+    "15 degrees": ((40.0, 55.0), (40.0, 55.0), (-7.0, 8.0), (60.0, 75.0)),
+    "25 degrees, nearly straight": ((0.0, 25.0), (20.0, 45.0), (-7.0, 8.0), (20.0, 45.0)),
+}
+"""Plane, elevation, rotation and elbow in degrees, of arms that move little."""
+
+
+@pytest.fixture(scope="session", params=list(SMALL))
+def small_workspace_of(request: pytest.FixtureRequest) -> Callable[[Side], Workspace]:
+    """A small workspace of a side."""
+    plane, elevation, rotation, elbow = ((radians(low), radians(high)) for low, high in SMALL[request.param])
+    ranges = {"plane_rad": plane, "elevation_rad": elevation, "rotation_rad": rotation, "elbow_rad": elbow}
+    return lambda side: replace(workspace(side), **ranges)
 
 
 @pytest.fixture(scope="session")

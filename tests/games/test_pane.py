@@ -7,10 +7,18 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
+from fusion.messages import Floats
 from fusion.skeleton import Side
-from games.game import Workspace
-from games.nearest import reaches
-from games.pane import COLUMNS, LARGEST_CELL_M, ROWS, SMALLEST_CELL_M, pane
+from games.game import Point, Workspace
+from games.nearest import nearest_reach
+from games.pane import COLUMNS, LARGEST_CELL_M, ON_M, ROWS, SMALLEST_CELL_M, pane
+from games.workspace import distance_m
+
+
+def farthest_from_reach_m(workspace: Workspace, places: Floats) -> float:
+    """How far the arm ends from one of a few of the (n, 3) places."""
+    few: list[Point] = [(x, y, z) for x, y, z in places[::7].tolist()]
+    return max(distance_m(place, nearest_reach(workspace, place).position) for place in few)
 
 
 @pytest.mark.parametrize("side", list(Side))
@@ -19,9 +27,9 @@ def test_most_of_it_is_in_reach_and_what_says_so_is(workspace_of: Callable[[Side
     laid = pane(workspace, np.random.default_rng(1))
     assert laid.places.shape == (ROWS * COLUMNS, 3)
     assert laid.is_reachable.mean() > 0.6
-    for place in laid.places[laid.is_reachable][::7].tolist():
-        x, y, z = place
-        assert reaches(workspace, (x, y, z))
+    aimed = laid.aims[laid.is_reachable]
+    assert farthest_from_reach_m(workspace, aimed) < 0.005
+    assert np.linalg.norm(aimed - laid.places[laid.is_reachable], axis=1).max() < laid.cell_m
 
 
 def test_the_cells_lie_in_one_plane_at_even_distances(usual: Workspace) -> None:
@@ -57,6 +65,18 @@ def test_both_sides_are_mirror_images(workspace_of: Callable[[Side], Workspace])
     assert left.centre == pytest.approx((-right.centre[0], *right.centre[1:]))
     np.testing.assert_allclose(left.places, right.places * (-1.0, 1.0, 1.0), atol=1e-12)
     assert (left.is_reachable == right.is_reachable).all()
+
+
+@pytest.mark.parametrize("side", list(Side))
+def test_an_arm_that_moves_little_has_a_pane_of_its_size(
+    small_workspace_of: Callable[[Side], Workspace], side: Side
+) -> None:
+    workspace = small_workspace_of(side)
+    laid = pane(workspace, np.random.default_rng(1))
+    assert laid.is_reachable.sum() >= 40
+    assert farthest_from_reach_m(workspace, laid.aims[laid.is_reachable]) < 0.005
+    off_m = [abs(laid.beyond_m((x, y, z))) for x, y, z in laid.aims[laid.is_reachable].tolist()]
+    assert max(off_m) <= ON_M
 
 
 def test_an_arm_that_cannot_move_has_its_one_cell() -> None:

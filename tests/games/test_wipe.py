@@ -15,6 +15,7 @@ from games.play import Play
 from games.player import QUICK, WEAK, Ability, Player, play
 from games.rules import Ended, PlayInput
 from games.wipe import EASY_CELLS, HARD_CELLS, POINTS, WipeRules
+from games.workspace import hand_at, middle_pose
 
 FAR: Point = (9.0, 9.0, 9.0)
 DT_S = 0.05
@@ -190,6 +191,30 @@ def test_a_hand_that_follows_clears_whole_pictures_on_both_sides(
     rules = WipeRules(workspace_of(side), np.random.default_rng(1))
     said = [word for _ in range(1500) for one in stepped(rules, None, 0.3) for word in one.feedback]
     assert "picture" in said
+
+
+@pytest.mark.parametrize("side", list(Side))
+def test_where_an_arm_moves_little_a_hand_at_rest_wipes_nothing_and_a_weak_one_wins_at_the_easiest(
+    small_workspace_of: Callable[[Side], Workspace], side: Side
+) -> None:
+    workspace = small_workspace_of(side)
+    hand = hand_at(workspace, middle_pose(workspace))
+    for level in (0.2, 0.5, 1.0):
+        rules = WipeRules(workspace, np.random.default_rng(7))
+        ended = [one for _ in range(600) for one in stepped(rules, hand, level)]
+        assert ended
+        assert not any(one.success for one in ended)
+    assert succeeded(workspace, WEAK, 0.0) >= 0.9
+
+
+def test_an_elbow_that_moves_alone_has_more_to_wipe_than_a_hand_at_rest_wipes() -> None:
+    elbow = Workspace(Side.LEFT, (0, 0, 0), 0.28, 0.33, (1.0, 1.002), (0.7, 0.702), (0.0, 0.002), (0.0, 2.3))
+    assert succeeded(elbow, WEAK, 0.0) >= 0.9
+    hand = hand_at(elbow, middle_pose(elbow))
+    rules = WipeRules(elbow, np.random.default_rng(7))
+    ended = [one for level in (0.5, 1.0) for _ in range(600) for one in stepped(rules, hand, level)]
+    assert ended
+    assert not any(one.success for one in ended)
 
 
 def test_an_arm_that_cannot_move_still_wipes_its_one_cell() -> None:
