@@ -1,4 +1,4 @@
-"""The games there are, by name. A further game is a file beside `reach.py` and a line here."""
+"""The games there are, by name. A further game is a folder beside `reach` and a line here."""
 
 from __future__ import annotations
 
@@ -6,18 +6,23 @@ from collections.abc import Mapping
 from typing import Final
 
 from fusion.errors import InputError
-from games import catch, everyday, reach, row, trace, wipe
+from games.catch.rules import CatchRules
+from games.everyday.rules import EverydayRules
 from games.game import GameSettings, Workspace
 from games.play import Play
+from games.reach.rules import ReachRules
+from games.row.rules import RowRules
 from games.rules import RulesFactory
+from games.trace.rules import TraceRules
+from games.wipe.rules import WipeRules
 
 GAMES: Final[Mapping[str, RulesFactory]] = {
-    reach.NAME: reach.ReachRules,
-    trace.NAME: trace.TraceRules,
-    catch.NAME: catch.CatchRules,
-    row.NAME: row.RowRules,
-    everyday.NAME: everyday.EverydayRules,
-    wipe.NAME: wipe.WipeRules,
+    "reach": ReachRules,
+    "trace": TraceRules,
+    "catch": CatchRules,
+    "row": RowRules,
+    "everyday": EverydayRules,
+    "wipe": WipeRules,
 }
 
 

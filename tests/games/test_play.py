@@ -14,7 +14,7 @@ from games.catalogue import open_game
 from games.game import GameInput, GameSettings, GameView, Phase, Point, Wish, Workspace
 from games.play import BEGINS_AFTER_S, GRACE_S, LARGEST_BONUS, Play
 from games.posture import EASED, LASTS_S, LEAN_M
-from games.reach import POINTS
+from games.reach.rules import POINTS
 
 DT_S = 0.05
 FAR: Point = (9.0, 9.0, 9.0)

@@ -10,9 +10,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from games.game import Point, ThingView, Workspace
-from games.polyline import Polyline, polyline
 from games.rules import Ended, PlayInput
-from games.trace import (
+from games.trace.polyline import Polyline, polyline
+from games.trace.rules import (
     BREATH_S,
     EASY_PATIENCE_S,
     EASY_RADIUS_M,

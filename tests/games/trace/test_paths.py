@@ -12,7 +12,7 @@ from scipy.optimize import minimize
 
 from fusion.skeleton import Side
 from games.game import Workspace
-from games.paths import path
+from games.trace.paths import path
 from games.workspace import HIGHEST_M, IN_FRONT_M, LOWEST_M, Pose, hand_at, middle_pose
 
 USUAL = Workspace(Side.LEFT, (-0.18, 0.0, 0.0), 0.28, 0.33, (0.2, 1.8), (0.2, 1.5), (-0.8, 0.8), (0.2, 2.0))

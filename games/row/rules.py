@@ -24,14 +24,12 @@ from typing import Final
 import numpy as np
 
 from fusion.skeleton import Side
-from games.boat import FASTEST_M_S, Boat
 from games.even_steps import STEP_S, EvenSteps, Moment
 from games.game import Point, ThingView, Workspace
+from games.row.boat import FASTEST_M_S, Boat
+from games.row.course import longest_course
+from games.row.stroke import Stroke, demands
 from games.rules import Ended, PlayInput, SceneView
-from games.stroke import Stroke, demands
-from games.stroke_course import longest_course
-
-NAME: Final = "row"
 
 PAUSE_S: Final = 0.8
 """The boat glides between two strokes."""

@@ -11,16 +11,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fusion.skeleton import Side
-from games.boat import FASTEST_M_S, LARGEST_TURN_RAD, Boat
 from games.even_steps import on_the_way
 from games.game import GameInput, GameSettings, Phase, Point, ThingView, Wish, Workspace
 from games.play import Play
 from games.player import QUICK, WEAK, Player, play
 from games.programme import Exercise, Programme
-from games.row import EVEN_POINTS, POINTS, RowRules
+from games.row.boat import FASTEST_M_S, LARGEST_TURN_RAD, Boat
+from games.row.course import LEAST_OUTWARD_M, LOWEST_M, NEAREST_M, longest_course
+from games.row.rules import EVEN_POINTS, POINTS, RowRules
+from games.row.stroke import EASY_TIME_S, HARD_RADIUS_M, demands
 from games.rules import Ended, PlayInput
-from games.stroke import EASY_TIME_S, HARD_RADIUS_M, demands
-from games.stroke_course import LEAST_OUTWARD_M, LOWEST_M, NEAREST_M, longest_course
 from games.workspace import distance_m
 
 DT_S = 0.05

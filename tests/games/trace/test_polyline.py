@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from games.polyline import Polyline, evenly, polyline, rounded
+from games.trace.polyline import Polyline, evenly, polyline, rounded
 
 coordinates = st.floats(-1.0, 1.0)
 places = st.tuples(coordinates, coordinates, coordinates)

@@ -11,7 +11,7 @@ from fusion.messages import Floats
 from fusion.skeleton import Side
 from games.game import Point, Workspace
 from games.nearest import nearest_reach
-from games.pane import COLUMNS, LARGEST_CELL_M, ON_M, ROWS, SMALLEST_CELL_M, pane
+from games.wipe.pane import COLUMNS, LARGEST_CELL_M, ON_M, ROWS, SMALLEST_CELL_M, pane
 from games.workspace import distance_m
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from games.game import Point, ThingView, Workspace
-from games.reach import EASY_RADIUS_M, EASY_TIME_S, HARD_RADIUS_M, POINTS, ReachRules
+from games.reach.rules import EASY_RADIUS_M, EASY_TIME_S, HARD_RADIUS_M, POINTS, ReachRules
 from games.rules import Ended, PlayInput
 
 DT_S = 0.05

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from games.errand import LEAVING, Errand, Stay, time_for
 from games.even_steps import STEP_S
+from games.everyday.errand import LEAVING, Errand, Stay, time_for
 from games.game import Point
 
 HERE: Point = (0.1, -0.2, -0.4)

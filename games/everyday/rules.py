@@ -21,14 +21,13 @@ from typing import Final
 import numpy as np
 
 from games.dwell import spread_m
-from games.errand import Errand, Stay, time_for
 from games.even_steps import STEP_S, EvenSteps
+from games.everyday.errand import Errand, Stay, time_for
+from games.everyday.kitchen import Kitchen, kitchen
 from games.game import Point, ThingView, Workspace
-from games.kitchen import Kitchen, kitchen
 from games.levels import between
 from games.rules import Ended, PlayInput, SceneView
 
-NAME: Final = "everyday"
 EASY_RADIUS_M, HARD_RADIUS_M = 0.09, 0.04
 EASY_TAKE_S, HARD_TAKE_S = 0.4, 0.5
 EASY_HOLD_S, HARD_HOLD_S = 0.8, 2.0

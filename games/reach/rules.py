@@ -16,7 +16,6 @@ from games.levels import between
 from games.rules import Ended, PlayInput, SceneView
 from games.workspace import distance_m, next_reach
 
-NAME: Final = "reach"
 EASY_RADIUS_M, HARD_RADIUS_M = 0.09, 0.05
 EASY_DWELL_S, HARD_DWELL_S = 0.4, 0.8
 EASY_TIME_S, HARD_TIME_S = 14.0, 1.6

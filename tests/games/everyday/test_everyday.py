@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fusion.skeleton import Side
-from games.everyday import BREATH_S, EASY_RADIUS_M, POINTS, EverydayRules
+from games.everyday.rules import BREATH_S, EASY_RADIUS_M, POINTS, EverydayRules
 from games.game import GameSettings, Point, ThingView, Workspace
 from games.play import Play
 from games.player import QUICK, WEAK, Ability, Player, play

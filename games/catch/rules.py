@@ -15,13 +15,11 @@ from typing import Final
 
 import numpy as np
 
-from games.butterfly import Butterfly, demands, way_to
+from games.catch.butterfly import Butterfly, demands, way_to
 from games.even_steps import STEP_S, EvenSteps
 from games.game import Point, ThingView, Workspace
 from games.rules import Ended, PlayInput, SceneView
 from games.workspace import distance_m, next_reach
-
-NAME: Final = "catch"
 
 PAUSE_S: Final = 0.9
 """Between two butterflies."""

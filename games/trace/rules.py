@@ -21,12 +21,11 @@ import numpy as np
 
 from games.game import Point, ThingView, Workspace
 from games.levels import between
-from games.paths import path
-from games.polyline import Polyline
 from games.rules import Ended, PlayInput, SceneView
+from games.trace.paths import path
+from games.trace.polyline import Polyline
 from games.workspace import distance_m
 
-NAME: Final = "trace"
 EASY_LENGTH_M, HARD_LENGTH_M = 0.35, 0.75
 EASY_RADIUS_M, HARD_RADIUS_M = 0.09, 0.03
 EASY_WINDING, HARD_WINDING = 1.05, 2.2

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from fusion.skeleton import Side
+from games.everyday.kitchen import BLOCK_M, EASY_BLOCKS, HARD_BELOW_M, HARD_BLOCKS, LOWEST_M, MOUTH_M, Kitchen, kitchen
 from games.game import Point, Workspace
-from games.kitchen import BLOCK_M, EASY_BLOCKS, HARD_BELOW_M, HARD_BLOCKS, LOWEST_M, MOUTH_M, Kitchen, kitchen
 from games.nearest import nearest_reach
 from games.workspace import IN_FRONT_M, distance_m
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from fusion.messages import Floats
 from games.game import Point, Workspace
-from games.polyline import Polyline, evenly, polyline, rounded
+from games.trace.polyline import Polyline, evenly, polyline, rounded
 from games.workspace import HIGHEST_M, IN_FRONT_M, LOWEST_M, MARGIN, distance_m, hand_at
 
 STARTS: Final = 64

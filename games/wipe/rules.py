@@ -25,11 +25,10 @@ from fusion.skeleton import Side
 from games.even_steps import STEP_S, EvenSteps
 from games.game import Point, ThingView, Workspace
 from games.levels import between
-from games.mist import Mist, mist
-from games.pane import COLUMNS, TILT_RAD, pane
 from games.rules import Ended, PlayInput, SceneView
+from games.wipe.mist import Mist, mist
+from games.wipe.pane import COLUMNS, TILT_RAD, pane
 
-NAME: Final = "wipe"
 EASY_CELLS, HARD_CELLS = 7, 20
 EASY_WIPER_M: Final = 0.07
 EASY_WIPER_CELLS, HARD_WIPER_CELLS = 2.0, 0.7

@@ -11,8 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fusion.skeleton import Side
-from games.butterfly import EASY_FLIGHT_S, EASY_LINGER_S, EASY_RADIUS_M, HARD_NOTICE_S, HARD_RADIUS_M, demands
-from games.catch import IN_TIME_POINTS, POINTS, CatchRules
+from games.catch.butterfly import EASY_FLIGHT_S, EASY_LINGER_S, EASY_RADIUS_M, HARD_NOTICE_S, HARD_RADIUS_M, demands
+from games.catch.rules import IN_TIME_POINTS, POINTS, CatchRules
 from games.game import GameSettings, Point, ThingView, Workspace
 from games.play import Play
 from games.player import QUICK, WEAK, Player, play

@@ -14,7 +14,7 @@ from games.game import GameSettings, Point, ThingView, Workspace
 from games.play import Play
 from games.player import QUICK, WEAK, Ability, Player, play
 from games.rules import Ended, PlayInput
-from games.wipe import EASY_CELLS, HARD_CELLS, POINTS, WipeRules
+from games.wipe.rules import EASY_CELLS, HARD_CELLS, POINTS, WipeRules
 from games.workspace import hand_at, middle_pose
 
 FAR: Point = (9.0, 9.0, 9.0)

@@ -1,0 +1,1 @@
+"""Catching what comes on the breeze."""

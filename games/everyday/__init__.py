@@ -1,0 +1,1 @@
+"""Everyday tasks at a kitchen table."""

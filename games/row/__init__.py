@@ -1,0 +1,1 @@
+"""Rowing with both hands."""

@@ -1,0 +1,1 @@
+"""Tracing a path through space."""
