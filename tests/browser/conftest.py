@@ -43,6 +43,19 @@ POSES = tuple(
 )
 """Plane, elevation, rotation and elbow of an arm that shows how far it goes."""
 POSE_S = 1.5
+ASK = """async ([method, path, body]) => {
+  const answer = await fetch(path, {
+    method,
+    headers: {
+      "content-type": "application/json",
+      "mirrorlimb-client": sessionStorage.getItem("mirrorlimb.client.dashboard") ?? "",
+    },
+    body: body === null ? undefined : JSON.stringify(body),
+  });
+  if (!answer.ok) throw new Error(`${method} ${path}: ${answer.status} ${await answer.text()}`);
+  return answer.json();
+}"""
+Ask = Callable[..., dict]
 
 
 # By module: Playwright's event loop must have ended before other tests ask for one of their own.
@@ -75,6 +88,16 @@ def shots() -> Path:
     """Folder for screenshots, kept out of the repository."""
     SHOTS.mkdir(exist_ok=True)
     return SHOTS
+
+
+@pytest.fixture(scope="session")
+def ask() -> Ask:
+    """Asks the service as a dashboard's page does: page, method, path, form. The test fails where it refuses."""
+
+    def asked(page: Page, method: str, path: str, body: object = None) -> dict:
+        return page.evaluate(ASK, [method, path, body])
+
+    return asked
 
 
 class Crowd:

@@ -29,18 +29,6 @@ ALIGNED_MS = 60_000
 PLAYED_S = 60.0
 """Generous: a busy machine must not fail a test that is about what is shown."""
 
-ASK = """async ([method, path, body]) => {
-  const answer = await fetch(path, {
-    method,
-    headers: {
-      "content-type": "application/json",
-      "mirrorlimb-client": sessionStorage.getItem("mirrorlimb.client.dashboard") ?? "",
-    },
-    body: body === null ? undefined : JSON.stringify(body),
-  });
-  if (!answer.ok) throw new Error(`${method} ${path}: ${answer.status} ${await answer.text()}`);
-  return answer.json();
-}"""
 TOO_WIDE = "() => document.documentElement.scrollWidth - document.documentElement.clientWidth"
 FOCUSED = """() => {
   const element = document.activeElement;
@@ -62,12 +50,7 @@ class Clinic:
     session: int
 
 
-def ask(page: Page, method: str, path: str, body: object = None) -> dict:
-    """What the service answers the page; the test fails where it refuses."""
-    return page.evaluate(ASK, [method, path, body])
-
-
-def finished_session(page: Page, patient: int) -> int:
+def finished_session(ask: Callable[..., dict], page: Page, patient: int) -> int:
     """A session that lasted a moment."""
     form = {"patient_id": patient, "confirmed_affected_side": "left", "pain_before": 2}
     session = ask(page, "POST", "/api/sessions", form)["id"]
@@ -77,7 +60,7 @@ def finished_session(page: Page, patient: int) -> int:
 
 
 @pytest.fixture
-def clinic(browser: Browser, start_service: Callable) -> Iterator[Clinic]:
+def clinic(browser: Browser, start_service: Callable, ask: Callable[..., dict]) -> Iterator[Clinic]:
     """Logged in at the demonstration, with something on every page."""
     service = start_service("--demo")
     context = browser.new_context(viewport=DESK, locale="en-GB", reduced_motion="reduce")
@@ -86,7 +69,7 @@ def clinic(browser: Browser, start_service: Callable) -> Iterator[Clinic]:
     page.get_by_test_id("login-demo").click()
     expect(page.get_by_test_id("open-session").first).to_be_visible()
     patient = ask(page, "GET", "/api/patients")[0]["id"]
-    yield Clinic(service.address, context, page, patient, finished_session(page, patient))
+    yield Clinic(service.address, context, page, patient, finished_session(ask, page, patient))
     context.close()
 
 
@@ -169,7 +152,9 @@ def play_until_something_is_won(page: Page, play: Page) -> None:
         play.wait_for_timeout(300)
 
 
-def test_an_open_sessions_pages_and_those_of_what_was_played_break_no_rule(clinic: Clinic, shots: Path) -> None:
+def test_an_open_sessions_pages_and_those_of_what_was_played_break_no_rule(
+    clinic: Clinic, shots: Path, ask: Callable[..., dict]
+) -> None:
     page, play, at = clinic.page, clinic.context.new_page(), f"{clinic.address}/#"
     form = {"patient_id": clinic.patient, "confirmed_affected_side": "left", "pain_before": 3}
     session = ask(page, "POST", "/api/sessions", form)["id"]

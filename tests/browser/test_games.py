@@ -19,27 +19,10 @@ ALIGNED_MS = 60_000
 PLAYED_S = 90.0
 """Generous: a busy machine must not fail a test that is about what is shown."""
 LEVEL = 0.1
-
-ASK = """async ([method, path, body]) => {
-  const answer = await fetch(path, {
-    method,
-    headers: {
-      "content-type": "application/json",
-      "mirrorlimb-client": sessionStorage.getItem("mirrorlimb.client.dashboard") ?? "",
-    },
-    body: body === null ? undefined : JSON.stringify(body),
-  });
-  if (!answer.ok) throw new Error(`${method} ${path}: ${answer.status} ${await answer.text()}`);
-  return answer.json();
-}"""
+Ask = Callable[..., dict]
 
 
-def ask(page: Page, method: str, path: str, body: object = None) -> dict:
-    """What the service answers the page; the test fails where it refuses."""
-    return page.evaluate(ASK, [method, path, body])
-
-
-def patient_whose_healthy_side_is(page: Page, healthy_side: str) -> int:
+def patient_whose_healthy_side_is(ask: Ask, page: Page, healthy_side: str) -> int:
     """A patient whose limits somebody has signed for."""
     made = ask(page, "POST", "/api/patients", {"name": f"healthy {healthy_side}", "healthy_side": healthy_side})
     limits = {key: made[key] for key in ("passive_range", "force_limits", "assist_level_most")}
@@ -47,8 +30,8 @@ def patient_whose_healthy_side_is(page: Page, healthy_side: str) -> int:
     return made["id"]
 
 
-def open_all_games(page: Page, affected: str) -> int:
-    patient = patient_whose_healthy_side_is(page, "right" if affected == "left" else "left")
+def open_all_games(ask: Ask, page: Page, affected: str) -> int:
+    patient = patient_whose_healthy_side_is(ask, page, "right" if affected == "left" else "left")
     exercises = [{"game": name, "minutes": 5, "level": LEVEL, "pinned": True} for name in GAMES]
     form = {"patient_id": patient, "confirmed_affected_side": affected, "pain_before": 1, "exercises": exercises}
     return ask(page, "POST", "/api/sessions", form)["id"]
@@ -68,8 +51,9 @@ def number(play: Page, name: str) -> int:
 
 
 def play_until_something_is_won(page: Page, play: Page, game: str) -> None:
-    ends_s = monotonic() + PLAYED_S
-    while play.locator("#play").get_attribute("data-game") != game or number(play, "score") == 0:
+    """The screen shows the points of all games so far."""
+    ends_s, before = monotonic() + PLAYED_S, number(play, "score")
+    while play.locator("#play").get_attribute("data-game") != game or number(play, "score") == before:
         assert monotonic() < ends_s, f"{game}: nothing was won"
         keep_moving(page)
         play.wait_for_timeout(250)
@@ -77,7 +61,7 @@ def play_until_something_is_won(page: Page, play: Page, game: str) -> None:
 
 @pytest.mark.parametrize("affected", ["left", "right"])
 def test_the_virtual_patient_plays_every_game_and_its_scores_replay_exactly(
-    browser: Browser, start_service: Callable, shots: Path, affected: str
+    browser: Browser, start_service: Callable, ask: Ask, shots: Path, affected: str
 ) -> None:
     service = start_service("--demo")
     context: BrowserContext = browser.new_context(viewport={"width": 1280, "height": 720}, locale="en-GB")
@@ -85,7 +69,7 @@ def test_the_virtual_patient_plays_every_game_and_its_scores_replay_exactly(
     page.goto(service.address)
     page.get_by_test_id("login-demo").click()
     page.get_by_test_id("log-out").wait_for()
-    session = open_all_games(page, affected)
+    session = open_all_games(ask, page, affected)
     page.goto(service.address + "/#/live")
     expect(page.get_by_test_id("start")).to_be_enabled(timeout=ALIGNED_MS)
     play.goto(service.address + "/play.html")

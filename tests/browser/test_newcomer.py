@@ -27,7 +27,9 @@ def pixels(shown: Page | Locator, file: Path) -> np.ndarray:
 
 
 def share_changed(before: np.ndarray, after: np.ndarray) -> float:
-    """Share of pixels that differ visibly."""
+    """Share of pixels that differ visibly, of what both pictures show: words beside a view may make it shorter."""
+    height, width = np.minimum(before.shape[:2], after.shape[:2])
+    before, after = before[:height, :width], after[:height, :width]
     return float((np.abs(after - before).max(axis=2) > 24).mean())
 
 

@@ -213,6 +213,7 @@ def end(client, number):
 def treated(shared, therapist, open_session):
     """The number of a session that has ended, and in which it hurt."""
     number = open_session()
+    time.sleep(SOME_S)
     control(therapist, number, "pain")
     until(lambda: therapist.get("/api/station").json()["state"] == "hold")
     time.sleep(SOME_S)

@@ -39,14 +39,19 @@ def _all(source: UdpSource, count: int) -> list[Packet]:
 
 
 def test_a_datagram_carries_its_senders_address_and_the_time_of_its_arrival(sender: socket.socket) -> None:
+    early_s = []
     with UdpSource(_config()) as source:
-        before = time.monotonic()
-        sender.sendto(b"hello", _target(source))
-        after = time.monotonic()
-        time.sleep(0.05)  # reading late does not make it younger
-        (packet,) = _all(source, 1)
-    assert (packet.stream, packet.payload) == ("127.0.0.3", b"hello")
-    assert before - 0.001 <= packet.t_received_s <= after + 0.005
+        for _ in range(5):
+            before = time.monotonic()
+            sender.sendto(b"hello", _target(source))
+            time.sleep(0.05)  # reading late does not make it younger
+            read = time.monotonic()
+            (packet,) = _all(source, 1)
+            assert (packet.stream, packet.payload) == ("127.0.0.3", b"hello")
+            assert before - 0.001 <= packet.t_received_s
+            early_s.append(read - packet.t_received_s)
+    # Where the machine's wall clock is set in between, the time of reading is used: rarely, and never for all.
+    assert max(early_s) > 0.04
 
 
 def test_sr8_while_the_wall_clock_is_being_set_the_time_of_reading_is_used(

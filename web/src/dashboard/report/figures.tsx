@@ -2,7 +2,8 @@
 import type { ProgressLine, Side } from "../../api/types";
 import { t } from "../../strings";
 import { armName } from "../progress/figure-card";
-import { amount, type Family, familyName, saidOf, signedAmount, verdictSign } from "../progress/lines";
+import { amount, type Family, familyName } from "../progress/lines";
+import { FigureTable } from "../progress/table";
 
 interface Props {
   rows: readonly { family: Family; line: ProgressLine }[];
@@ -42,39 +43,7 @@ export function SessionFigures({ rows, affected }: Props) {
 
 /** From the first session to the last, and what can be said of it. */
 export function CourseFigures({ rows, affected }: Props) {
-  if (rows.length === 0) return <p>{t("progress.none")}</p>;
-  return (
-    <table>
-      <thead>
-        <tr>
-          <th>{t("progress.figure")}</th>
-          <th class="number">{t("progress.first-value")}</th>
-          <th class="number">{t("progress.last-value")}</th>
-          <th class="number">{t("progress.difference")}</th>
-          <th class="number">{t("progress.mdc")}</th>
-          <th>{t("progress.said")}</th>
-          <th>{t("progress.trusted")}</th>
-        </tr>
-      </thead>
-      <tbody>
-        {rows.map(({ family, line }) => (
-          <tr key={family.id}>
-            <Name family={family} line={line} affected={affected} />
-            <td class="number">{amount(line, line.points[0]?.value ?? null)}</td>
-            <td class="number">
-              <strong>{amount(line, line.points.at(-1)?.value ?? null)}</strong>
-            </td>
-            <td class="number">{signedAmount(line, line.difference)}</td>
-            <td class="number">{amount(line, line.mdc)}</td>
-            <td>
-              <span aria-hidden="true">{verdictSign(line)}</span> {t(`progress.verdict.${saidOf(line)}.short`)}
-            </td>
-            <td>{t(`trust.${line.trust}`)}</td>
-          </tr>
-        ))}
-      </tbody>
-    </table>
-  );
+  return rows.length === 0 ? <p>{t("progress.none")}</p> : <FigureTable rows={rows} affected={affected} />;
 }
 
 function Name({ family, line, affected }: { family: Family; line: ProgressLine; affected: Side }) {
