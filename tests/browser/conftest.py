@@ -90,13 +90,14 @@ def shots() -> Path:
     return SHOTS
 
 
+def asked(page: Page, method: str, path: str, body: object = None) -> dict:
+    """What the service answers a dashboard's page; an error where it refuses."""
+    return page.evaluate(ASK, [method, path, body])
+
+
 @pytest.fixture(scope="session")
 def ask() -> Ask:
-    """Asks the service as a dashboard's page does: page, method, path, form. The test fails where it refuses."""
-
-    def asked(page: Page, method: str, path: str, body: object = None) -> dict:
-        return page.evaluate(ASK, [method, path, body])
-
+    """`asked`, for tests."""
     return asked
 
 

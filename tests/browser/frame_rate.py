@@ -29,7 +29,8 @@ from server.cli.browser import find_browser
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from browser.conftest import ARGUMENTS, built_pages
-from browser.test_games import ALIGNED_MS, ask, keep_moving, patient_whose_healthy_side_is
+from browser.conftest import asked as ask
+from browser.test_games import ALIGNED_MS, keep_moving, patient_whose_healthy_side_is
 from conftest import _address_printed
 
 SETTLES_S = 4
@@ -141,7 +142,7 @@ def beside_the_station(browser: Browser, address: str, game: str, seconds: int) 
 
 
 def begin(page: Page, game: str) -> int:
-    patient = patient_whose_healthy_side_is(page, "right")
+    patient = patient_whose_healthy_side_is(ask, page, "right")
     exercises = [{"game": game, "minutes": 10, "level": 0.3, "pinned": True}]
     form = {"patient_id": patient, "confirmed_affected_side": "left", "exercises": exercises}
     return ask(page, "POST", "/api/sessions", form)["id"]
