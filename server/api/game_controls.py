@@ -20,7 +20,7 @@ from server.api.workspace import shown_workspace
 
 POSSIBLE: Final[Mapping[Wish, frozenset[Phase]]] = {
     Wish.START: frozenset({Phase.WAITING, Phase.BETWEEN}),
-    Wish.PAUSE: frozenset({Phase.WAITING, Phase.PLAYING, Phase.REST}),
+    Wish.PAUSE: frozenset({Phase.WAITING, Phase.PLAYING, Phase.REST, Phase.BETWEEN}),
     Wish.GO_ON: frozenset({Phase.WAITING, Phase.REST, Phase.PAUSED, Phase.BETWEEN}),
     Wish.REST: frozenset({Phase.PLAYING}),
     Wish.NEXT: frozenset(Phase) - {Phase.OVER},
